@@ -1,0 +1,112 @@
+#include "linalg/turn.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace ifsm::core {
+namespace {
+
+constexpr double epsilon = 2.220446049250313e-16;
+
+using Small = SmallMatrix;
+using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 4>;
+
+// A polygon from its mean, in units of its largest difference. Differences from the first point come first: they are
+// exact where points are near each other, and 0 where they coincide, which differences from a rounded mean are not.
+class Centred {
+ public:
+  explicit Centred(const PolygonView& polygon) : polygon_(polygon), first_(polygon.row(0)) {
+    const double largest = polygon.cwiseAbs().maxCoeff();
+    unit_ = (polygon.rowwise() - first_).cwiseAbs().maxCoeff();
+    // A coordinate was rounded as a sum of as many products as the polygon has points; 8: a few levels of them.
+    noise_ = 8 * static_cast<double>(polygon.rows()) * epsilon * (largest / unit_);
+    if (!(unit_ > 0)) return;
+    mean_ = Row::Zero(polygon.cols());
+    for (Eigen::Index j = 0; j < polygon.rows(); ++j) mean_ += (polygon.row(j) - first_) / unit_;
+    mean_ /= static_cast<double>(polygon.rows());
+  }
+
+  bool is_point() const { return !(unit_ > 0) || noise_ >= 1; }  // as far as rounding lets one tell
+  double noise() const { return noise_; }
+  double unit() const { return unit_; }
+  Row point(Eigen::Index j) const { return (polygon_.row(j) - first_) / unit_ - mean_; }
+
+ private:
+  const PolygonView& polygon_;
+  Row first_, mean_;
+  double unit_, noise_;
+};
+
+// The nearest rotation, full rank or one less. When it mirrors, the least of the singular directions is turned over;
+// where several are least, the one that lets the others turn least: I - 2 w w^T, w^T V^T U w smallest.
+Small nearest_rotation(const Small& u, const Small& v, const Row& values, double rounding) {
+  const Small whole = u * v.transpose();
+  if (whole.determinant() > 0) return whole;
+  Eigen::Index least = 1;
+  while (least < values.size() && values(values.size() - 1 - least) <= values(values.size() - 1) + rounding) ++least;
+  const Small cross = v.rightCols(least).transpose() * u.rightCols(least);
+  const Eigen::SelfAdjointEigenSolver<Small> eigen(cross + cross.transpose());
+  const auto w = eigen.eigenvectors().col(0);
+  return whole - 2 * (u.rightCols(least) * w) * (v.rightCols(least) * w).transpose();
+}
+
+// Of all rotations that take range V_r to range U_r as told, the one of largest trace: the free blocks are joined by
+// the nearest rotation to what the identity asks for there.
+Small complete(const Small& u, const Small& v, Eigen::Index rank) {
+  const auto free = u.rows() - rank;
+  const Small q = u.leftCols(rank) * v.leftCols(rank).transpose();
+  const Small wanted = u.rightCols(free).transpose() * v.rightCols(free);
+  const Eigen::JacobiSVD<Small, Eigen::NoQRPreconditioner> svd(wanted, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Small middle = svd.matrixU() * svd.matrixV().transpose();
+  Small whole = q + u.rightCols(free) * middle * v.rightCols(free).transpose();
+  if (whole.determinant() < 0) {
+    Small flip = Small::Identity(free, free);
+    flip(free - 1, free - 1) = -1;
+    middle = svd.matrixU() * flip * svd.matrixV().transpose();
+    whole = q + u.rightCols(free) * middle * v.rightCols(free).transpose();
+  }
+  return whole;
+}
+
+}  // namespace
+
+double polygon_size(const PolygonView& polygon) {
+  const Centred centred(polygon);
+  if (centred.is_point()) return 0;
+  double sum = 0;
+  for (Eigen::Index j = 0; j < polygon.rows(); ++j) sum += centred.point(j).squaredNorm();
+  return centred.unit() * std::sqrt(sum / static_cast<double>(polygon.rows()));
+}
+
+SmallMatrix least_rotation(const PolygonView& from, const PolygonView& to) {
+  const auto d = from.cols();
+  if (d == 1 || from == to) return Small::Identity(d, d);
+  const Centred before(from), after(to);
+  if (before.is_point() || after.is_point()) return Small::Identity(d, d);
+  Small m = Small::Zero(d, d);
+  for (Eigen::Index j = 0; j < from.rows(); ++j) m.noalias() += after.point(j).transpose() * before.point(j);
+  // What the sum is known to: both factors are of size 1.
+  const double rounding = static_cast<double>(from.rows()) * (before.noise() + after.noise());
+  if (d == 2) {  // closed form: the argument of sum (conj p) p'
+    const double c = m(0, 0) + m(1, 1), s = m(1, 0) - m(0, 1);
+    const double h = std::hypot(c, s);
+    Small q = Small::Identity(2, 2);
+    if (h > rounding) q << c / h, -s / h, s / h, c / h;
+    return q;
+  }
+  const Eigen::JacobiSVD<Small, Eigen::NoQRPreconditioner> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Row values = svd.singularValues().transpose();
+  Eigen::Index rank = 0;
+  while (rank < d && values(rank) > rounding) ++rank;
+  if (rank >= d - 1) return nearest_rotation(svd.matrixU(), svd.matrixV(), values, rounding);
+  return complete(svd.matrixU(), svd.matrixV(), rank);
+}
+
+SmallMatrix turn(const PolygonView& from, const PolygonView& to) {
+  if (from == to) return Small::Identity(from.cols(), from.cols());
+  const double before = polygon_size(from), after = polygon_size(to);
+  const double scale = before > 0 && after > 0 ? after / before : 1.0;
+  return scale * least_rotation(from, to);
+}
+
+}  // namespace ifsm::core

@@ -1,0 +1,87 @@
+#include "base/cancel.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+using namespace ifsm::core;
+
+namespace {
+
+TEST(CancelToken, StaysRaised) {
+  CancelToken token;
+  EXPECT_FALSE(token.requested());
+  token.request();
+  token.request();
+  EXPECT_TRUE(token.requested());
+}
+
+TEST(Watch, WithoutTokenAndCallbackNeverCancels) {
+  Watch watch;
+  EXPECT_NO_THROW(watch.poll());
+  EXPECT_NO_THROW(watch.report(0.5, "stage"));
+}
+
+TEST(Watch, CancelsInEveryPollAfterTheTokenWasRaisedByAnotherThread) {
+  CancelToken token;
+  const Watch watch(&token, {});
+  EXPECT_NO_THROW(watch.poll());
+  std::thread([&] { token.request(); }).join();
+  EXPECT_THROW(watch.poll(), Cancelled);
+  EXPECT_THROW(watch.poll(), Cancelled);
+}
+
+TEST(Watch, AnswersARequestThatArrivesWhileItIsPolled) {
+  CancelToken token;
+  const Watch watch(&token, {});
+  std::thread requester([&] { token.request(); });
+  EXPECT_THROW(for (;;) watch.poll(), Cancelled);
+  requester.join();
+}
+
+TEST(Watch, CancelsWhenTheCallbackSaysSo) {
+  Watch watch(nullptr, [](double fraction, const char*) { return fraction >= 0.5; });
+  EXPECT_NO_THROW(watch.report(0.25, "a"));
+  EXPECT_THROW(watch.report(0.5, "b"), Cancelled);
+}
+
+TEST(Watch, TellsFractionsThatNeverGoBackNorPassOne) {
+  std::vector<std::pair<double, std::string>> told;
+  Watch watch(nullptr, [&](double fraction, const char* stage) {
+    told.emplace_back(fraction, stage);
+    return false;
+  });
+  for (const double fraction : {0.0, 0.5, 0.25, 1.5, 0.75}) watch.report(fraction, "s");
+  const std::vector<std::pair<double, std::string>> expected = {
+      {0.0, "s"}, {0.5, "s"}, {0.5, "s"}, {1.0, "s"}, {1.0, "s"}};
+  EXPECT_EQ(told, expected);
+}
+
+TEST(Watch, APartFillsItsShareOfTheWhole) {
+  std::vector<double> told;
+  Watch whole(nullptr, [&](double fraction, const char*) {
+    told.push_back(fraction);
+    return false;
+  });
+  Watch first = whole.part(0.0, 0.5);
+  Watch second = whole.part(0.5, 1.0);
+  first.report(0.5, "first");
+  first.report(1.0, "first");
+  second.report(0.5, "second");
+  second.report(1.0, "second");
+  EXPECT_EQ(told, (std::vector<double>{0.25, 0.5, 0.75, 1.0}));
+}
+
+TEST(Watch, APartIsCancelledWithTheWhole) {
+  CancelToken token;
+  Watch whole(&token, {});
+  Watch part = whole.part(0.0, 1.0);
+  token.request();
+  EXPECT_THROW(part.poll(), Cancelled);
+  EXPECT_THROW(part.report(0.5, "s"), Cancelled);
+}
+
+}  // namespace

@@ -1,0 +1,137 @@
+#include "base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "base/cancel.h"
+
+using namespace ifsm::core;
+
+namespace {
+
+constexpr int thread_counts[] = {1, 2, 7, 0};
+
+// Sums whose last bits depend on the order of addition: one a chunk, then over chunks in order.
+double chunked_sum(int threads) {
+  constexpr std::int64_t chunks = 97;
+  constexpr std::int64_t terms = 1001;
+  std::vector<double> sums(chunks);
+  parallel_for(chunks, threads, [&](std::int64_t chunk) {
+    double sum = 0;
+    for (std::int64_t k = 0; k < terms; ++k) sum += std::sin(static_cast<double>(chunk * terms + k)) * 1e-3;
+    sums[static_cast<std::size_t>(chunk)] = sum;
+  });
+  double total = 0;
+  for (const double sum : sums) total += sum;
+  return total;
+}
+
+TEST(ParallelFor, GivesTheSameBitsWithAnyNumberOfThreads) {
+  const double expected = chunked_sum(1);
+  for (const int threads : thread_counts) {
+    const double sum = chunked_sum(threads);
+    EXPECT_EQ(std::memcmp(&sum, &expected, sizeof sum), 0) << threads << " threads";
+  }
+}
+
+TEST(ParallelFor, CallsEveryChunkOnce) {
+  for (const int threads : thread_counts)
+    for (const std::int64_t chunks : {0, 1, 2, 3, 1000}) {
+      std::vector<std::atomic<int>> calls(static_cast<std::size_t>(chunks));
+      parallel_for(chunks, threads, [&](std::int64_t chunk) { ++calls.at(static_cast<std::size_t>(chunk)); });
+      for (const auto& count : calls) EXPECT_EQ(count.load(), 1) << threads << " threads, " << chunks << " chunks";
+    }
+}
+
+TEST(ParallelFor, StaysOnThisThreadWhenItMayUseOne) {
+  std::set<std::thread::id> ids;
+  parallel_for(100, 1, [&](std::int64_t) { ids.insert(std::this_thread::get_id()); });
+  EXPECT_EQ(ids, std::set<std::thread::id>{std::this_thread::get_id()});
+}
+
+TEST(ParallelFor, UsesNoMoreThreadsThanItMay) {
+  std::atomic<int> inside{0};
+  std::atomic<int> most{0};
+  parallel_for(200, 2, [&](std::int64_t) {
+    const int now = ++inside;
+    int seen = most.load();
+    while (seen < now && !most.compare_exchange_weak(seen, now)) {
+    }
+    std::this_thread::yield();
+    --inside;
+  });
+  EXPECT_GE(most.load(), 1);
+  EXPECT_LE(most.load(), 2);
+}
+
+TEST(ParallelFor, ThrowsWhatAChunkThrowsAfterAllHaveEnded) {
+  for (const int threads : thread_counts) {
+    std::atomic<int> running{0};
+    EXPECT_THROW(parallel_for(100, threads,
+                              [&](std::int64_t chunk) {
+                                ++running;
+                                struct Leave {
+                                  std::atomic<int>& count;
+                                  ~Leave() { --count; }
+                                } leave{running};
+                                if (chunk == 13) throw std::out_of_range("chunk");
+                              }),
+                 std::out_of_range)
+        << threads << " threads";
+    EXPECT_EQ(running.load(), 0);
+  }
+}
+
+TEST(ParallelFor, WorksAgainAfterAnException) {
+  EXPECT_THROW(parallel_for(8, 2, [](std::int64_t) { throw std::bad_alloc(); }), std::bad_alloc);
+  EXPECT_EQ(chunked_sum(2), chunked_sum(1));
+}
+
+TEST(ParallelFor, StopsWhenAChunkIsCancelled) {
+  for (const int threads : thread_counts) {
+    CancelToken token;
+    const Watch watch(&token, {});
+    std::atomic<std::int64_t> done{0};
+    EXPECT_THROW(parallel_for(1'000'000, threads,
+                              [&](std::int64_t) {
+                                watch.poll();
+                                if (++done == 100) token.request();
+                              }),
+                 Cancelled);
+    EXPECT_LT(done.load(), 10'000) << threads << " threads";
+  }
+}
+
+TEST(ParallelFor, MayBeNested) {
+  for (const int threads : thread_counts) {
+    std::atomic<int> calls{0};
+    parallel_for(10, threads, [&](std::int64_t) { parallel_for(10, threads, [&](std::int64_t) { ++calls; }); });
+    EXPECT_EQ(calls.load(), 100);
+  }
+}
+
+TEST(ParallelFor, RunsFromSeveralThreadsAtOnce) {
+  std::vector<std::thread> callers;
+  std::vector<double> sums(3);
+  for (std::size_t k = 0; k < sums.size(); ++k) callers.emplace_back([&sums, k] { sums[k] = chunked_sum(2); });
+  for (auto& caller : callers) caller.join();
+  for (const double sum : sums) EXPECT_EQ(sum, chunked_sum(1));
+}
+
+TEST(DefaultThreads, AreWhatWasSet) {
+  EXPECT_EQ(default_threads(), 0);
+  set_default_threads(3);
+  EXPECT_EQ(default_threads(), 3);
+  EXPECT_EQ(chunked_sum(0), chunked_sum(1));
+  set_default_threads(0);
+}
+
+}  // namespace
