@@ -1,0 +1,104 @@
+#include "curve/resolve.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "curve/conjugate.h"
+
+namespace ifsm::core {
+namespace {
+
+constexpr int pursuit_trials = 30;
+
+// What the samples still miss: corrections are solved for, so that what they leave open stays as it is.
+Lanes missing(const Model& model, const Model& sketch) {
+  const Points whole = line(model, model.levels()), now = line(sketch, sketch.levels());
+  return lanes_of(whole) - lanes_of(now);
+}
+
+ModelPtr corrected(const Model& sketch, const Solution& correction) {
+  ModelParts parts = sketch.parts();
+  parts.polygon.matrix() += correction.control;
+  close_ends(parts);
+  Index first = 0;
+  for (auto& level : parts.details) {
+    auto details = std::make_shared<Points>(*level);
+    details->matrix() += correction.details.middleRows(first, details->count());
+    first += details->count();
+    level = std::move(details);
+  }
+  return std::make_shared<Model>(std::move(parts));
+}
+
+TreeSolver solver_of(const Model& model) {
+  return {model.shape(), model.levels(), model.closed(), sample_weights(model)};
+}
+
+}  // namespace
+
+Eigen::VectorXd sample_weights(const Model& model) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(model.shape().line_length(model.levels()));
+  for (Index k = 0; k < model.placement().samples(); ++k) weights(model.placement().place(k)) = 1;
+  return weights;
+}
+
+Lanes lanes_of(const Points& line) { return line.matrix(); }
+
+ModelPtr resolve(const Model& model, const Kept& kept, const Watch& watch) {
+  const ModelPtr sketch = keep(model, kept);
+  if (!model.shape().joined()) return conjugate_resolve(model, *sketch, kept, watch);
+  TreeSolver solver = solver_of(model);
+  solver.factor(model.filter().matrix(), kept, watch);
+  // Twice: the second time it solves for what rounding in the factors left over.
+  const ModelPtr once = corrected(*sketch, solver.solve(missing(model, *sketch), watch));
+  return corrected(*once, solver.solve(missing(model, *once), watch));
+}
+
+ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch) {
+  if (!model.shape().joined()) return resolve(model, kept, watch);
+  TreeSolver solver = solver_of(model);
+  const Lanes data = lanes_of(line(model, model.levels()));
+  const RowMatrix& filter = model.filter().matrix();
+  const Choice choice = pursued(solver, filter, solved(solver, filter, kept, data, watch), data, pursuit_trials, watch);
+  return resolve(model, choice.kept, watch);
+}
+
+Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, const Watch& watch) {
+  solver.factor(filter, kept, watch);
+  Solution solution = solver.solve(data, watch);
+  const double squared_error = solver.squared_error(data, solution.curve);
+  return {kept, std::move(solution), squared_error};
+}
+
+Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Lanes& data, int trials,
+               const Watch& watch) {
+  constexpr double better = 1 - 1e-9;
+  const auto count = static_cast<Index>(std::ranges::count(start.kept, char{1}));
+  const auto all = static_cast<Index>(start.kept.size());
+  Choice best = std::move(start);
+  if (count == 0 || count == all) return best;
+  // solver holds the factors of the last solved choice: `best` at first.
+  best = solved(solver, filter, best.kept, data, watch);
+  std::vector<double> scores = solver.scores(best.solution);
+  Index step = std::max<Index>(1, count / 4);
+  for (int trial = 0; trial < trials && step > 0; ++trial) {
+    std::vector<double> wish = scores;
+    for (std::size_t i = 0; i < wish.size(); ++i)
+      if (best.kept[i]) wish[i] = std::numeric_limits<double>::infinity();
+    const Choice more = solved(solver, filter, largest(wish, std::min(count + step, all)), data, watch);
+    std::vector<double> worth = solver.scores(more.solution);
+    for (std::size_t i = 0; i < worth.size(); ++i)
+      if (!more.kept[i]) worth[i] = -1;
+    Choice next = solved(solver, filter, largest(worth, count), data, watch);
+    if (next.squared_error < better * best.squared_error) {
+      scores = solver.scores(next.solution);
+      best = std::move(next);
+    } else {
+      step /= 2;
+    }
+  }
+  return best;
+}
+
+}  // namespace ifsm::core
