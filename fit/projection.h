@@ -1,0 +1,40 @@
+// The squared error of solved sketches as a function of R alone (variable projection): the details that are kept stay
+// the same ones, their values and the control points follow R by least squares. This is what paper 002 asks for in
+// words: a small amount of detail data as close as possible to the given curve.
+#pragma once
+
+#include <vector>
+
+#include "base/cancel.h"
+#include "curve/resolve.h"
+#include "fit/objective.h"
+#include "fit/parameters.h"
+
+namespace ifsm::core {
+
+// One sketch of one curve; its squared error counts by `weight`.
+struct ProjectedSketch {
+  TreeSolver* solver;
+  const Lanes* data;  // the finest line
+  int levels;
+  Kept kept;
+  double weight;
+};
+
+class Projection : public Objective {
+ public:
+  Projection(const Shape& shape, std::vector<ProjectedSketch> sketches, const Watch& watch);
+
+  double value(const RowMatrix& matrix) override;
+  // Kaufman's Jacobian, as JᵀJ and Jᵀr: the tangent of the synthesis at fixed values, less what solving again takes
+  // back of it.
+  void gather(const RowMatrix& matrix, Normal& normal) override;
+
+ private:
+  Shape shape_;
+  std::vector<ProjectedSketch> sketches_;
+  const Watch& watch_;
+  std::vector<FreeEntry> entries_;
+};
+
+}  // namespace ifsm::core

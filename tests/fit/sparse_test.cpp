@@ -1,0 +1,202 @@
+#include "fit/sparse.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "base/parallel.h"
+#include "curve/keep.h"
+#include "curves.h"
+
+namespace ifsm::core {
+namespace {
+
+FitOptions quick(std::vector<Index> budgets) {
+  FitOptions options;
+  options.budgets = std::move(budgets);
+  options.iterations = 12;
+  options.polish_rounds = 2;
+  return options;
+}
+
+FitResult fitted(const std::vector<FitCurve>& curves, const FitOptions& options) {
+  Watch watch;
+  return fit_sparse(curves, options, watch);
+}
+
+double rms(const Model& model, const Points& wanted) {
+  return std::sqrt((samples(model).matrix() - wanted.matrix()).rowwise().squaredNorm().mean());
+}
+
+TEST(SparseFit, IsNeverWorseThanItsStartAtAnyBudgetAsked) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const bool closed = seed % 2 == 0;
+    const Points points = closed ? loop(300, 2, seed) : walk(300, 2, seed);
+    const FitResult result = fitted({{points, closed}}, quick({10, 40, 120}));
+    for (const FitBudget& row : result.budgets[0]) EXPECT_LE(row.fitted.rms, row.start.rms * (1 + 1e-12)) << row.budget;
+  }
+}
+
+TEST(SparseFit, MakesFewDetailsSayMore) {
+  const Points points = walk(513, 2, 3);
+  const FitResult result = fitted({{points, false}}, quick({32}));
+  EXPECT_LT(result.budgets[0][0].fitted.rms, 0.95 * result.budgets[0][0].start.rms);
+  EXPECT_EQ(result.budgets[0][0].details, 32 - 5);
+}
+
+TEST(SparseFit, TellsOfSketchesWhatTheyAre) {
+  const Points points = loop(400, 3, 5);
+  const FitResult result = fitted({{points, true}}, quick({20, 60}));
+  for (const FitBudget& row : result.budgets[0])
+    for (const Sketch* sketch : {&row.start, &row.fitted}) {
+      EXPECT_LE(sketch->model->details_kept(), row.details);
+      EXPECT_DOUBLE_EQ(rms(*sketch->model, points), sketch->rms);
+      EXPECT_GE(sketch->max, sketch->rms);
+    }
+  // The model of the fit is exact: 1e-12 of the diagonal, times the condition number of R where it is large.
+  EXPECT_LT(rms(*result.models[0], points), 1e-13 * result.final_condition * diagonal(points));
+}
+
+TEST(SparseFit, FindsTheKochFilterAgainFromAPerturbedStart) {
+  const Points points = koch_samples(4);
+  const FilterPtr koch = named_filter("koch", Topology::joined, 0, 0);
+  EXPECT_LT(rms(*keep(*analyze(koch, points, false), first_levels(*analyze(koch, points, false), 0)), points), 1e-15);
+
+  RowMatrix matrix = koch->matrix();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> step(-0.03, 0.03);
+  for (Index c = 1; c + 1 < matrix.cols(); ++c) {
+    for (Index r = 0; r < matrix.rows(); ++r) matrix(r, c) += step(random);
+    matrix(0, c) += 1 - matrix.col(c).head(3).sum();
+  }
+  FitOptions options = quick({3});
+  options.start = std::make_shared<Filter>(koch->shape(), matrix);
+  options.iterations = 100;
+  options.polish_rounds = 20;
+  const FitResult result = fitted({{points, false}}, options);
+  // Whatever basis the control points have come to, three of them and no detail are the whole curve. The squared error
+  // is what is minimised, so that it is known to eps: the error to its root.
+  EXPECT_GT(result.budgets[0][0].start.rms, 1e-3);
+  EXPECT_LT(result.budgets[0][0].fitted.rms, 1e-7);
+}
+
+TEST(SparseFit, GivesTheSameBitsAgainAndOnAnyNumberOfThreads) {
+  const std::vector<FitCurve> curves = {{walk(200, 2, 1), false}, {loop(300, 2, 2), true}};
+  const FitResult once = fitted(curves, quick({16, 64}));
+  for (const int threads : {1, 2, 7}) {
+    set_default_threads(threads);
+    const FitResult again = fitted(curves, quick({16, 64}));
+    EXPECT_EQ(once.filter->matrix(), again.filter->matrix());
+    EXPECT_EQ(once.budgets[1][1].fitted.rms, again.budgets[1][1].fitted.rms);
+  }
+  set_default_threads(0);
+}
+
+TEST(SparseFit, SharesOneFilterBetweenCurves) {
+  const std::vector<FitCurve> curves = {{walk(200, 2, 1), false}, {loop(260, 2, 2), true}, {walk(150, 2, 9), false}};
+  const FitResult result = fitted(curves, quick({30}));
+  ASSERT_EQ(result.models.size(), 3U);
+  for (std::size_t c = 0; c < curves.size(); ++c) {
+    EXPECT_EQ(&result.models[c]->filter(), result.filter.get());
+    EXPECT_LE(result.budgets[c][0].fitted.rms, result.budgets[c][0].start.rms * (1 + 1e-12));
+  }
+}
+
+TEST(SparseFit, ChoosesAShapeThatIsNoWorseThanTheDefault) {
+  FitOptions options = quick({24});
+  options.iterations = 4;
+  options.polish_rounds = 1;
+  const Points points = walk(200, 2, 4);
+  const double plain = fitted({{points, false}}, options).budgets[0][0].fitted.rms;
+  options.control_points = options.maps = 0;
+  EXPECT_LE(fitted({{points, false}}, options).budgets[0][0].fitted.rms, plain);
+}
+
+TEST(SparseFit, TakesCurvesOfEveryDimensionAndDegenerateOnes) {
+  for (const Index dimension : {1, 2, 3, 4})
+    EXPECT_NO_THROW(fitted({{walk(70, dimension, 3), false}}, quick({12}))) << dimension;
+  Points same(2, 50);
+  same.matrix().setConstant(3);
+  EXPECT_EQ(fitted({{same, false}}, quick({8})).budgets[0][0].fitted.rms, 0);
+  EXPECT_EQ(fitted({{walk(2, 2, 1), false}}, {}).reason, FitReason::start_best);
+  EXPECT_LT(fitted({{walk(6, 2, 1), false}}, {}).budgets[0][0].fitted.rms, 1e-12);
+  Points straight(2, 129);  // as many as places: equally spaced, a polynomial of degree 1
+  for (Index k = 0; k < 129; ++k) straight.matrix().row(k) << static_cast<double>(k), 2.0 * static_cast<double>(k);
+  EXPECT_LT(fitted({{straight, false}}, quick({6})).budgets[0][0].fitted.rms, 1e-10);
+}
+
+TEST(SparseFit, ToldProgressGrowsFromZeroToOne) {
+  std::vector<double> told;
+  Watch watch(nullptr, [&](double fraction, const char*) {
+    told.push_back(fraction);
+    return false;
+  });
+  fit_sparse({{walk(300, 2, 1), false}}, quick({20, 50}), watch);
+  ASSERT_GT(told.size(), 5U);
+  EXPECT_TRUE(std::ranges::is_sorted(told));
+  EXPECT_GE(told.front(), 0);
+  EXPECT_EQ(told.back(), 1);
+}
+
+TEST(SparseFit, StopsWhenTheCallbackSaysSo) {
+  int calls = 0;
+  Watch watch(nullptr, [&](double, const char*) { return ++calls == 3; });
+  EXPECT_THROW(fit_sparse({{walk(300, 2, 1), false}}, quick({20}), watch), Cancelled);
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(SparseFit, StopsWhenAnotherThreadRaisesTheToken) {
+  CancelToken token;
+  Watch watch(&token, nullptr);
+  std::thread raiser([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(30));
+    token.request();
+  });
+  FitOptions options = quick({200});
+  options.iterations = 1000;
+  options.polish_rounds = 100;
+  options.sparse_rounds = 100;
+  EXPECT_THROW(fit_sparse({{walk(20000, 2, 1), false}}, options, watch), Cancelled);
+  raiser.join();
+}
+
+struct Refused {
+  std::vector<FitCurve> curves;
+  FitOptions options;
+  Status status;
+  std::string argument;
+  Index index;
+};
+
+TEST(SparseFit, RefusesWhatCannotBeFittedAndSaysWhich) {
+  const Points points = walk(100, 2, 1);
+  FitOptions square = quick({10});
+  square.start = named_filter("haar", Topology::square, 0, 0);
+  FitOptions large = quick({40});
+  large.control_points = 16;
+  large.maps = 8;
+  const Refused table[] = {
+      {{}, quick({10}), Status::range, "curve_count", -1},
+      {{{points, false}, {walk(9, 3, 1), false}}, quick({10}), Status::shape, "curves", 1},
+      {{{points, false}}, square, Status::range, "start", -1},
+      {{{points, false}}, large, Status::limit, "start", -1},
+      {{{points, false}}, quick({10, 4}), Status::range, "budgets", 1},
+      {{{points, false}}, quick({10, 20, 100000}), Status::range, "budgets", 2},
+  };
+  for (const Refused& refused : table) {
+    try {
+      fitted(refused.curves, refused.options);
+      ADD_FAILURE() << refused.argument;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.status(), refused.status) << error.what();
+      EXPECT_EQ(error.argument(), refused.argument) << error.what();
+      EXPECT_EQ(error.index(), refused.index) << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ifsm::core
