@@ -1,0 +1,616 @@
+/* ifsm.h — fractal detail models of measured curves, behind a stable C ABI.
+ *
+ * A complete program: fit a model to samples, keep its 32 most significant details, read the curve back.
+ *
+ *     #include <ifsm.h>
+ *     #include <stdio.h>
+ *
+ *     int main(void) {
+ *       double samples[257 * 2];                       // x0 y0 x1 y1 …: ordered points, any finite doubles
+ *       for (int k = 0; k < 257; ++k) { samples[2*k] = k; samples[2*k + 1] = (k * k) % 101; }
+ *       ifsm_curve curve = {samples, 257, 2, 0};       // borrowed while the call runs
+ *       ifsm_fit fit = {0};
+ *       ifsm_model model = {0}, sketch = {0};
+ *       ifsm_keep_options keep;
+ *       double points[257 * 2];
+ *       int64_t count = 0;
+ *       if (ifsm_keep_options_init(&keep, sizeof keep)) return 1;
+ *       keep.rule = IFSM_KEEP_COUNT, keep.count = 32, keep.resolve = IFSM_RESOLVE_VALUES;
+ *       if (ifsm_fit_sparse(&curve, 1, NULL, &fit) || ifsm_fit_model(fit, 0, &model) ||
+ *           ifsm_model_keep(model, &keep, &sketch) || ifsm_model_samples(sketch, points, 257 * 2, &count)) {
+ *         ifsm_error error = {.struct_size = sizeof error};
+ *         if (ifsm_last_error(&error) == IFSM_OK) fprintf(stderr, "%s\n", error.message);
+ *       }
+ *       int failed = count == 0;
+ *       failed |= ifsm_model_destroy(sketch) | ifsm_model_destroy(model) | ifsm_fit_destroy(fit);
+ *       return failed;
+ *     }
+ *
+ * What holds everywhere
+ *   Results    Every function that can fail returns an ifsm_status. Outputs come last and are written only on
+ *              IFSM_OK. After a failure, ifsm_last_error() tells the function, the argument, the index, the value
+ *              and the way out.
+ *   Handles    are small values; copy them freely. A stale, doubly destroyed, forged or wrong-kind handle gives
+ *              IFSM_ERROR_INVALID_HANDLE, never undefined behaviour. The null handle {0} may be destroyed.
+ *   Lifetimes  Filters, models and fits are immutable: share them between threads. Destroying one while another
+ *              thread is inside a call with it kills the handle; the object lives until that call ends. A handle
+ *              that a function *creates* is owned by the caller, who destroys it. *Borrowed*: used during the call
+ *              only. *Copied*: taken during the call; the caller may free the original afterwards.
+ *   Arrays     are a pointer and a count; points are interleaved (x0 y0 x1 y1 …), doubles, finite or refused with
+ *              the index of the first bad one. Output arrays are the caller's: `NULL, 0` asks for the count alone;
+ *              one that is too small gives IFSM_ERROR_CAPACITY with the count needed in the error record and stays
+ *              untouched. Counts and capacities of arrays of doubles count doubles, unless a comment says points.
+ *   Options    start with struct_size; ifsm_…_options_init(&o, sizeof o) sets it and zeroes the rest, and a field
+ *              that is zero means its default. A NULL pointer means all defaults. A larger struct from a newer
+ *              header is accepted when the tail that this library does not know is zero, a smaller one from an
+ *              older header always. Result structs (`…_info`, `…_report`) want struct_size set, likewise; fields
+ *              that this library is too old to know are left alone. Sizes that no header has (below 8, above 4096, not
+ *              a multiple of 4) give IFSM_ERROR_OPTIONS.
+ *   Callbacks  run on the calling thread, never two at once, never under a lock; they may call the library.
+ *   Threads    Every function may be called from any thread. Results have the same bits for any number of threads.
+ *   Honest limit: a pointer and a length cannot be verified. Misuse of a handle is an error code; misuse of memory
+ *              is not.
+ *
+ * The names: a curve is cut into maps^levels *nodes*; each node has a *control polygon* of n points; the *filter*
+ * R = (T over U) makes the polygons of its children out of a polygon and a few *detail* vectors (synthesis), and
+ * R^-1 takes them apart (analysis). Source of the model: "projected IFS with details", paper 002 of docs/papers.md.
+ */
+#ifndef IFSM_H
+#define IFSM_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define IFSM_API __attribute__((visibility("default")))
+#define IFSM_MUST_USE __attribute__((warn_unused_result))
+#else
+#define IFSM_API
+#define IFSM_MUST_USE
+#endif
+
+/* ------------------------------------------------------------------------------------------------------------
+ * Statuses and errors
+ */
+
+/* Zero is success. A value, once published, means the same for ever; new ones are added at the end. */
+typedef int32_t ifsm_status;
+
+enum {
+  IFSM_OK = 0,
+  IFSM_ERROR_INVALID_HANDLE = 1, /* null, stale, destroyed, forged, or of another kind */
+  IFSM_ERROR_NULL = 2,           /* a pointer that must not be NULL is */
+  IFSM_ERROR_RANGE = 3,          /* a number, index, count or constant outside its range */
+  IFSM_ERROR_NOT_FINITE = 4,     /* NaN or an infinity among the doubles */
+  IFSM_ERROR_SHAPE = 5,          /* sizes that do not fit each other */
+  IFSM_ERROR_SINGULAR = 6,       /* a filter that cannot be inverted, or whose columns do not sum to one */
+  IFSM_ERROR_CAPACITY = 7,       /* an output array is too small; the record holds the count needed */
+  IFSM_ERROR_OPTIONS = 8,        /* an options struct's struct_size, or an unknown tail that is not zero */
+  IFSM_ERROR_FORMAT = 9,         /* bytes that are not a model, or contradict themselves */
+  IFSM_ERROR_VERSION = 10,       /* bytes of a newer schema than this library reads */
+  IFSM_ERROR_LIMIT = 11,         /* more than this library takes: size, depth */
+  IFSM_ERROR_CANCELLED = 12,     /* a callback or a cancel token said stop */
+  IFSM_ERROR_BUSY = 13,          /* a mutable object is in use by another call */
+  IFSM_ERROR_MEMORY = 14,        /* an allocation failed; everything is as it was before the call */
+  IFSM_ERROR_NUMERICAL = 15,     /* the numbers left the range of doubles on the way */
+  IFSM_ERROR_INTERNAL = 16       /* a fault of this library: please report it */
+};
+
+/* What went wrong in this thread's last failing call. */
+typedef struct ifsm_error {
+  uint32_t struct_size;
+  ifsm_status status;
+  const char *function; /* e.g. "ifsm_model_create" */
+  const char *argument; /* the parameter or the field, e.g. "samples"; "" when none is to blame */
+  int64_t index;        /* position in the argument; -1 when it has none */
+  double value;         /* the offending value; NaN when there is none */
+  int64_t required;     /* what a count must be (CAPACITY, SHAPE); -1 when nothing is asked for */
+  const char *message;  /* a full sentence: what is wrong and what to do */
+} ifsm_error;
+
+/* The record of this thread's last failing call. Success never clears it; before any failure its status is IFSM_OK.
+ *
+ * error   [out] with struct_size set; its strings are borrowed until this thread's next failing call
+ *
+ * Does not itself change the record. Errors: NULL, OPTIONS. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_last_error(ifsm_error *error);
+
+/* The name of a status, e.g. "IFSM_ERROR_RANGE"; "unknown status" for any other number. Static storage. Since 0.1. */
+IFSM_API const char *ifsm_status_name(ifsm_status status);
+
+/* ------------------------------------------------------------------------------------------------------------
+ * The library: versions, threads, log
+ */
+
+/* The version of the library that runs, as 10000 major + 100 minor + patch, and as text. Since 0.1. */
+IFSM_API int32_t ifsm_version(void);
+IFSM_API const char *ifsm_version_text(void);
+
+/* How many threads a call may use that says 0 itself: 1 … 1024, or 0 for one a core (the default). Affects calls
+ * that start later; never affects results. Errors: RANGE. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_set_threads(int32_t threads);
+
+/* threads   [out] the setting, 0 for one a core. Errors: NULL. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_threads(int32_t *threads);
+
+/* A log sink: lines of diagnosis, one call each, `text` borrowed during the call. level 0 info, 1 warning. */
+typedef void (*ifsm_log_callback)(void *user, int32_t level, const char *text);
+
+/* Sends this process's diagnosis to `sink`; NULL, the default, turns it off. The library never prints.
+ * Set it before other threads use the library. `user` is handed through. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_set_log(ifsm_log_callback sink, void *user);
+
+/* ------------------------------------------------------------------------------------------------------------
+ * Cancel tokens and progress
+ */
+
+typedef struct ifsm_cancel {
+  uint64_t id;
+} ifsm_cancel;
+
+/* cancel   [out] a new token, owned by the caller. Errors: NULL, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_cancel_create(ifsm_cancel *cancel);
+
+/* Asks every call that was given the token to stop: they answer IFSM_ERROR_CANCELLED within 100 ms and leave nothing
+ * behind. Final. May be called from a signal handler's thread, not from the handler itself. Errors: INVALID_HANDLE.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_cancel_request(ifsm_cancel cancel);
+
+/* requested   [out] 1 after ifsm_cancel_request, else 0. Errors: INVALID_HANDLE, NULL. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_cancel_requested(ifsm_cancel cancel, int32_t *requested);
+
+/* Calls that hold the token finish undisturbed. {0} is fine. Errors: INVALID_HANDLE. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_cancel_destroy(ifsm_cancel cancel);
+
+/* fraction grows from 0 to 1; stage is a word, borrowed. Return non-zero to cancel. */
+typedef int32_t (*ifsm_progress_callback)(void *user, double fraction, const char *stage);
+
+/* ------------------------------------------------------------------------------------------------------------
+ * Filters: the matrix R = (T_0 … T_N-1 over U_0 … U_N-1), and how neighbouring polygons share their places
+ */
+
+typedef struct ifsm_filter {
+  uint64_t id;
+} ifsm_filter;
+
+/* Topologies. Joined: neighbours share end points, so every change of details leaves the curve in one piece; R is
+ * K × K, K = (n-1) N + 1, its first n rows C the distinct columns of (T_0 … T_N-1), the others U with first and last
+ * column 0. Square (paper 002): R is nN × nN; leaf polygon q, column c reads place q·stride + c. */
+enum { IFSM_TOPOLOGY_JOINED = 0, IFSM_TOPOLOGY_SQUARE = 1 };
+
+typedef struct ifsm_filter_info {
+  uint32_t struct_size;
+  int32_t topology;         /* IFSM_TOPOLOGY_… */
+  int32_t control_points;   /* n: 2 … 16 joined, 1 … 16 square */
+  int32_t maps;             /* N: 2 … 8 */
+  int32_t stride;           /* places between neighbouring leaf polygons; n - 1 when joined */
+  int32_t rows;             /* R is rows × rows */
+  int32_t details_per_node; /* (n-1)(N-1) joined, n(N-1) square */
+  int32_t contractive;      /* 1 proven, -1 refuted, 0 undecided: T on vectors of sum zero, all words */
+  double condition;         /* 2-norm condition number of R */
+} ifsm_filter_info;
+
+/* A filter by name, as a wavelet is chosen.
+ *
+ * name            borrowed, NUL-terminated. "casteljau": joined or square, any n and N: subdivides a Bézier polygon
+ *                 into N pieces. Square ones, with their own n and N: "haar" (1, 2), "bspline" (4, 2: uniform cubic),
+ *                 "four-point" (6, 2), "koch" (3, 4), "takagi" (3, 2)
+ * topology        IFSM_TOPOLOGY_…
+ * control_points  n, or 0 for the name's own (casteljau: 5)
+ * maps            N, or 0 for the name's own (casteljau: 2)
+ * filter          [out] owned by the caller
+ *
+ * Errors: NULL, RANGE (an unknown name lists the known ones; a shape that the name does not have), MEMORY.
+ * Source: math of paper 002, section 3; U is the canonical complement, see ifsm_filter_from_maps. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_filter_named(const char *name, int32_t topology, int32_t control_points,
+                                                     int32_t maps, ifsm_filter *filter);
+
+/* A filter from the whole of R.
+ *
+ * topology, control_points, maps   as in ifsm_filter_info
+ * stride   places between neighbouring leaf polygons, 1 … n; 0 for n - 1 (joined: only that; n = 1: 1)
+ * matrix   copied: rows × rows doubles, row-major
+ * count    doubles in `matrix`
+ * filter   [out] owned by the caller
+ *
+ * Errors: NULL, RANGE, SHAPE (count), NOT_FINITE, SINGULAR (a column of T whose sum is not 1, a joint that is not
+ * shared, R not invertible in double precision), MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_filter_from_matrix(int32_t topology, int32_t control_points, int32_t maps,
+                                                           int32_t stride, const double *matrix, int64_t count,
+                                                           ifsm_filter *filter);
+
+/* A filter from T alone, with the canonical complement U: square, the orthogonal complement of T's rows, scaled into
+ * T's singular values; joined, interior columns orthogonal to those of the interior rows. Analysis is then least
+ * squares (joined: with both ends fixed).
+ *
+ * matrix   copied: joined C, n × ((n-1) N + 1) doubles; square (T_0 | … | T_N-1), n × nN; row-major
+ *
+ * Everything else, and the errors, as ifsm_filter_from_matrix. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_filter_from_maps(int32_t topology, int32_t control_points, int32_t maps,
+                                                         int32_t stride, const double *matrix, int64_t count,
+                                                         ifsm_filter *filter);
+
+/* info   [out] with struct_size set. Errors: INVALID_HANDLE, NULL, OPTIONS. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_filter_describe(ifsm_filter filter, ifsm_filter_info *info);
+
+/* R, row-major.
+ *
+ * matrix     [out] rows × rows doubles
+ * capacity   doubles that `matrix` can hold; NULL and 0 ask for the count only
+ * count      [out] rows × rows
+ *
+ * Errors: INVALID_HANDLE, NULL, CAPACITY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_filter_matrix(ifsm_filter filter, double *matrix, int64_t capacity,
+                                                      int64_t *count);
+
+/* Models made with the filter keep it alive. {0} is fine. Errors: INVALID_HANDLE. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_filter_destroy(ifsm_filter filter);
+
+/* ------------------------------------------------------------------------------------------------------------
+ * Models: a control polygon, a filter, and a tree of details
+ */
+
+typedef struct ifsm_model {
+  uint64_t id;
+} ifsm_model;
+
+/* Ordered samples. */
+typedef struct ifsm_curve {
+  const double *points; /* count × dimension doubles, point-major */
+  int64_t count;        /* points: 2 … */
+  int32_t dimension;    /* 1 … 4 */
+  int32_t closed;       /* 1: a ring, the first point not repeated at the end; 0: open */
+} ifsm_curve;
+
+typedef struct ifsm_model_options {
+  uint32_t struct_size;
+  int32_t levels; /* depth of the tree; 0: the smallest with a place for every sample */
+} ifsm_model_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_options_init(ifsm_model_options *options, uint32_t size);
+
+typedef struct ifsm_model_info {
+  uint32_t struct_size;
+  int32_t dimension;        /* 1 … 4 */
+  int32_t closed;           /* 0 or 1 */
+  int32_t levels;           /* L: details of levels 0 … L - 1, samples at level L */
+  int32_t control_points;   /* n */
+  int32_t maps;             /* N */
+  int32_t topology;         /* IFSM_TOPOLOGY_… */
+  int32_t details_per_node; /* detail vectors of a node */
+  int64_t samples;          /* how many samples the model was made from */
+  int64_t places;           /* points of level L: at least `samples` */
+  int64_t details;          /* detail vectors in all */
+  int64_t details_kept;     /* those that are not zero */
+  double diagonal;          /* of the samples' bounding box */
+  double largest_polygon;   /* largest coordinate of any polygon, from the centre, in diagonals: what rounding of the
+                               reconstruction is proportional to (n > 12 makes it grow) */
+} ifsm_model_info;
+
+/* The exact model of ordered samples: analysis from level L up to the control points. No fit takes place.
+ *
+ * filter    borrowed (the model keeps its matrix)
+ * curve     borrowed; sample k of m sits at place (2k(g-1) + m-1) div (2(m-1)) of the g places of level L (closed:
+ *           k g div m); places between are filled linearly
+ * options   borrowed; NULL for defaults
+ * model     [out] owned by the caller
+ *
+ * ifsm_model_samples gives the samples back within 1e-12 of their bounding box's diagonal for n <= 12; beyond, within
+ * c·eps·largest_polygon. Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE (index: the double), LIMIT, NUMERICAL,
+ * OPTIONS, MEMORY. Any thread. Source: paper 002, eq. (7). Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_create(ifsm_filter filter, const ifsm_curve *curve,
+                                                     const ifsm_model_options *options, ifsm_model *model);
+
+/* A model without samples: a control polygon, zero details, `levels` levels (edit them by ifsm_model_with_details).
+ * Its samples are its places.
+ *
+ * filter      borrowed
+ * polygon     borrowed: n control points; closed: the last one equal to the first when joined
+ * levels      0 … as long as the places fit into memory (2^40 are refused)
+ * model       [out] owned by the caller
+ *
+ * Errors: as ifsm_model_create, and SHAPE when polygon->count is not n. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_from_polygon(ifsm_filter filter, const ifsm_curve *polygon,
+                                                           int32_t levels, ifsm_model *model);
+
+/* info   [out] with struct_size set. A look-up: tens of nanoseconds. Errors: INVALID_HANDLE, NULL, OPTIONS.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_describe(ifsm_model model, ifsm_model_info *info);
+
+/* filter   [out] a handle on the model's filter, owned by the caller. Errors: INVALID_HANDLE, NULL, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_filter(ifsm_model model, ifsm_filter *filter);
+
+/* {0} is fine. Errors: INVALID_HANDLE. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_destroy(ifsm_model model);
+
+/* The curve at the samples: what the model was made from, unless details were dropped or edited.
+ *
+ * points     [out] samples × dimension doubles, point-major
+ * capacity   doubles that `points` can hold; NULL and 0 ask for the count only
+ * count      [out] doubles
+ *
+ * Errors: INVALID_HANDLE, NULL, CAPACITY, MEMORY. Any thread. Source: paper 002, eq. (6). Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_samples(ifsm_model model, double *points, int64_t capacity,
+                                                      int64_t *count);
+
+/* Synthesis down to a level: its control polygons joined into one line. Level 0 is the control polygon, level L the
+ * finest curve.
+ *
+ * level    0 … L
+ * points   [out] joined: ((n-1) N^level + 1) × dimension doubles (closed: the last point repeats the first); square:
+ *          the polygons laid on their places, those read twice averaged, stride (N^level - 1) + n points (closed:
+ *          stride N^level)
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_points(ifsm_model model, int32_t level, double *points, int64_t capacity,
+                                                     int64_t *count);
+
+/* What ifsm_model_evaluate follows: the polyline through the finest places, or the limit of going on below the
+ * finest level with zero details. */
+enum { IFSM_CURVE_POLYLINE = 0, IFSM_CURVE_LIMIT = 1 };
+
+/* The curve at parameters.
+ *
+ * curve        IFSM_CURVE_…
+ * parameters   borrowed: 0 … 1, from the first place to the last; closed: any finite number, its fraction counts
+ * parameter_count   how many
+ * points       [out] parameter_count × dimension doubles
+ *
+ * At a sample's parameter (ifsm_model_parameters) the polyline returns the sample. LIMIT needs contractive maps.
+ * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, CAPACITY, NUMERICAL, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_evaluate(ifsm_model model, int32_t curve, const double *parameters,
+                                                       int64_t parameter_count, double *points, int64_t capacity,
+                                                       int64_t *count);
+
+/* parameters   [out] the parameter of each sample, increasing. Errors: INVALID_HANDLE, NULL, CAPACITY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_parameters(ifsm_model model, double *parameters, int64_t capacity,
+                                                         int64_t *count);
+
+/* The address of a parameter: the first `length` symbols of its base-N expansion, each 0 … N-1. Parameter 1 of an open
+ * curve has the address N-1 N-1 …; a joint has two addresses, the one that starts there is given.
+ *
+ * parameter   as in ifsm_model_evaluate
+ * length      1 … 1024
+ * symbols     [out] room for `length` symbols
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, CAPACITY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_address(ifsm_model model, double parameter, int32_t length,
+                                                      int32_t *symbols, int64_t capacity, int64_t *count);
+
+/* And back: the parameters [first, last] of the node that an address names.
+ *
+ * symbols       borrowed: 0 … N-1
+ * symbol_count  0 … 1024; 0 is the whole curve
+ * first, last   [out]
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_interval(ifsm_model model, const int32_t *symbols, int64_t symbol_count,
+                                                       double *first, double *last);
+
+/* points   [out] n × dimension doubles: the control polygon of the root. Errors: INVALID_HANDLE, NULL, CAPACITY.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_control_points(ifsm_model model, double *points, int64_t capacity,
+                                                             int64_t *count);
+
+/* How detail vectors are told. Absolute: in the samples' axes and units. Node: in the frame of their node's own
+ * polygon (turned back by the turns of the polygons above it, in units of the polygon's size), so that they follow
+ * the polygon wherever it goes. */
+enum { IFSM_FRAME_ABSOLUTE = 0, IFSM_FRAME_NODE = 1 };
+
+/* Details of one level, as stored: what synthesis adds on the way down.
+ *
+ * level     0 (coarsest) … L - 1
+ * frame     IFSM_FRAME_…
+ * vectors   [out] N^level × details_per_node × dimension doubles, node by node, point-major
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, MEMORY. Any thread. Source: paper 002, eq. (7). Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_details(ifsm_model model, int32_t level, int32_t frame, double *vectors,
+                                                      int64_t capacity, int64_t *count);
+
+/* How much each detail of a level does to the curve: |detail| · g, g² the sum over all places of the squared change
+ * that a unit detail makes.
+ *
+ * values   [out] N^level × details_per_node doubles
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_significance(ifsm_model model, int32_t level, double *values,
+                                                           int64_t capacity, int64_t *count);
+
+/* A new model with other control points.
+ *
+ * frame       ABSOLUTE: details stay as they are; NODE: details turn and scale with their polygons
+ * points      borrowed: n × dimension doubles
+ * count       doubles in `points`
+ * changed     [out] owned by the caller
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, SHAPE, NOT_FINITE, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_with_control_points(ifsm_model model, int32_t frame, const double *points,
+                                                                  int64_t count, ifsm_model *changed);
+
+/* A new model with other details at one level; the other levels stay as told in the same frame.
+ *
+ * vectors   borrowed: as many doubles as ifsm_model_details gives
+ *
+ * Errors: as ifsm_model_with_control_points. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_with_details(ifsm_model model, int32_t level, int32_t frame,
+                                                           const double *vectors, int64_t count, ifsm_model *changed);
+
+/* A new model with another filter of the same shape; control points and details stay. (To take the samples apart
+ * with another filter, make a model of them: ifsm_model_create.)
+ *
+ * Errors: INVALID_HANDLE, NULL, SHAPE, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_with_filter(ifsm_model model, ifsm_filter filter, ifsm_model *changed);
+
+/* Which details to keep. */
+enum {
+  IFSM_KEEP_LEVELS = 1,   /* all details of the first `count` levels */
+  IFSM_KEEP_COUNT = 2,    /* the `count` most significant ones */
+  IFSM_KEEP_THRESHOLD = 3 /* those whose significance is above `threshold` */
+};
+
+/* What becomes of the values that are kept. */
+enum {
+  IFSM_RESOLVE_NONE = 0,   /* they stay as analysis gave them */
+  IFSM_RESOLVE_VALUES = 1, /* control points and kept details are solved anew: least squares against this model's samples */
+  IFSM_RESOLVE_CHOICE = 2  /* and which details are kept is bettered, their number staying: the nearest sketch, the
+                              slowest (joined; square: as VALUES) */
+};
+
+typedef struct ifsm_keep_options {
+  uint32_t struct_size;
+  int32_t rule; /* IFSM_KEEP_… */
+  int64_t count;
+  double threshold;
+  int32_t resolve; /* IFSM_RESOLVE_… */
+  int32_t reserved; /* 0 */
+  ifsm_cancel cancel; /* borrowed; {0} for none */
+} ifsm_keep_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_keep_options_init(ifsm_keep_options *options, uint32_t size);
+
+/* A new model whose other details are zero: a sketch of the curve.
+ *
+ * options   borrowed; must name a rule
+ * kept      [out] owned by the caller
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, OPTIONS, CANCELLED, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_keep(ifsm_model model, const ifsm_keep_options *options,
+                                                   ifsm_model *kept);
+
+/* File formats: one schema (docs/format.md), as JSON text or CBOR bytes. Doubles come back bit for bit. */
+enum { IFSM_FORMAT_JSON = 0, IFSM_FORMAT_CBOR = 1 };
+
+/* A model as bytes. Details that are zero are not stored.
+ *
+ * format     IFSM_FORMAT_…
+ * bytes      [out] the file; JSON is UTF-8 without a terminating NUL
+ * capacity   bytes that `bytes` can hold; NULL and 0 ask for the count only
+ * count      [out] bytes
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, LIMIT and NUMERICAL
+ * (what ifsm_model_load would refuse), MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_save(ifsm_model model, int32_t format, uint8_t *bytes, int64_t capacity,
+                                                   int64_t *count);
+
+/* A model from bytes of either format (told apart by the first byte). Depth, size and time are bounded; what
+ * contradicts itself is refused.
+ *
+ * bytes   borrowed
+ * count   how many
+ * model   [out] owned by the caller
+ *
+ * Errors: NULL, RANGE, FORMAT (index: the byte, or the entry named in the message), VERSION, LIMIT, NOT_FINITE, SHAPE,
+ * SINGULAR, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_load(const uint8_t *bytes, int64_t count, ifsm_model *model);
+
+/* ------------------------------------------------------------------------------------------------------------
+ * Fits: the filter under which few details say much
+ */
+
+typedef struct ifsm_fit {
+  uint64_t id;
+} ifsm_fit;
+
+typedef struct ifsm_fit_options {
+  uint32_t struct_size;
+  int32_t threads;        /* 0: as ifsm_set_threads says */
+  ifsm_filter start;      /* borrowed: where to start, joined, its shape instead of the one below; {0}: casteljau */
+  int32_t control_points; /* n, 2 … 16; 0: 5; -1: chosen among 2 … 6 */
+  int32_t maps;           /* N, 2 … 8; 0: 2; -1: chosen among 2 … 4 */
+  const int64_t *budgets; /* borrowed: how many vectors, control points and details together, a sketch may hold that
+                             is to be near the curve, each n …; NULL: 128 alone, or all vectors of smaller curves */
+  int64_t budget_count;   /* 0 … 64 */
+  int32_t iterations;     /* Levenberg-Marquardt iterations a round at most, 1 … 1000; 0: 40 */
+  int32_t rounds;         /* rounds of sparsity, each with its scale estimated anew, 1 … 100; 0: 2 */
+  int32_t polish;         /* rounds on the sketches' own error, 1 … 100; 0: 8; -1: none */
+  int32_t reserved;       /* 0 */
+  ifsm_cancel cancel;     /* borrowed; {0} for none */
+  ifsm_progress_callback progress; /* may be NULL */
+  void *user;                      /* handed to `progress` */
+} ifsm_fit_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_options_init(ifsm_fit_options *options, uint32_t size);
+
+/* Why a fit stopped. */
+enum {
+  IFSM_FIT_CONVERGED = 0,  /* no step improves the cost any more */
+  IFSM_FIT_ITERATIONS = 1, /* all iterations were used */
+  IFSM_FIT_START_BEST = 2  /* nothing found was better than the start at every budget: the start is returned */
+};
+
+typedef struct ifsm_fit_report {
+  uint32_t struct_size;
+  int32_t reason; /* IFSM_FIT_… */
+  int64_t curves;
+  int64_t budgets;
+  int64_t iterations;     /* Levenberg-Marquardt iterations, all rounds */
+  double start_cost;      /* the sparsity objective of the last round, of the start */
+  double final_cost;      /* and of the result */
+  double start_condition; /* condition number of R */
+  double final_condition;
+} ifsm_fit_report;
+
+/* How well a curve is told by one budget: distances between its samples and the best sketch that was found, under the
+ * filter it started from and under the fitted one. In the samples' units. */
+typedef struct ifsm_fit_budget {
+  uint32_t struct_size;
+  int32_t reserved;
+  int64_t budget;  /* as asked for: control points and details */
+  int64_t details; /* details alone */
+  double start_rms;
+  double start_max;
+  double rms;
+  double max;
+} ifsm_fit_budget;
+
+/* Stage *sparse*: fits all of R to curves that share it, so that few details tell them. First minimises
+ * sum log(1 + |detail|² g² / eps²) by Levenberg-Marquardt, eps following the error at the budgets; then, the choice of
+ * details bettered and held, the squared error of the solved sketches themselves, in turns.
+ *
+ * curves        borrowed: all of one dimension
+ * curve_count   1 …
+ * options       borrowed; NULL for defaults
+ * fit           [out] owned by the caller: never worse than its start at any budget asked for
+ *
+ * Errors: NULL, RANGE, SHAPE, NOT_FINITE, INVALID_HANDLE, CANCELLED, NUMERICAL, LIMIT, OPTIONS, MEMORY. Deterministic.
+ * The callbacks run on this thread. Source: paper 002, section 4; docs/fitting.md. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_sparse(const ifsm_curve *curves, int64_t curve_count,
+                                                   const ifsm_fit_options *options, ifsm_fit *fit);
+
+/* curve   0 … curves - 1
+ * model   [out] that curve's exact model under the fitted filter, owned by the caller
+ * Errors: INVALID_HANDLE, NULL, RANGE, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_model(ifsm_fit fit, int64_t curve, ifsm_model *model);
+
+/* The sketch that the report tells of: the fitted filter, budget - n details, solved.
+ *
+ * curve    0 … curves - 1
+ * budget   0 … budgets - 1: its position, not its size
+ * sketch   [out] owned by the caller
+ * Errors: INVALID_HANDLE, NULL, RANGE, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_sketch(ifsm_fit fit, int64_t curve, int64_t budget, ifsm_model *sketch);
+
+/* report   [out] with struct_size set. Errors: INVALID_HANDLE, NULL, OPTIONS. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_describe(ifsm_fit fit, ifsm_fit_report *report);
+
+/* curve    0 … curves - 1
+ * budget   0 … budgets - 1
+ * row      [out] with struct_size set
+ * Errors: INVALID_HANDLE, NULL, RANGE, OPTIONS. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_describe_budget(ifsm_fit fit, int64_t curve, int64_t budget,
+                                                            ifsm_fit_budget *row);
+
+/* Models taken from the fit live on. {0} is fine. Errors: INVALID_HANDLE. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_destroy(ifsm_fit fit);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* IFSM_H */

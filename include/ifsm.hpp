@@ -1,0 +1,519 @@
+// ifsm.hpp — the C++ face of ifsm.h: the same library, with owners, exceptions and vectors. Header only, C++17.
+//
+//     #include <ifsm.hpp>
+//
+//     int main() {
+//       std::vector<double> samples;                             // x0 y0 x1 y1 …
+//       for (int k = 0; k < 257; ++k) samples.insert(samples.end(), {1.0 * k, 1.0 * (k * k % 101)});
+//
+//       const ifsm::Fit fit = ifsm::fit_sparse({{samples, 2}});  // finds a filter under which few details say much
+//       const ifsm::Model model = fit.model(0);                  // the exact model of the samples under it
+//       const ifsm::Model sketch = model.keep(ifsm::most_significant(32).resolved());
+//       const std::vector<double> points = sketch.samples();     // interleaved again
+//       return points.size() == samples.size() ? 0 : 1;
+//     }
+//
+// How it maps to C
+//   Filter, Model and Fit own one handle each: they move, and do not copy (std::shared_ptr<Model> shares one). What
+//   they name is immutable, so every member is const, returns a new value, and may be called from any thread. A
+//   moved-from or default-constructed one holds the null handle; using it is an Error, destroying it is fine. Errors
+//   are thrown as ifsm::Error, which carries the whole of ifsm_error by value; cancelling as ifsm::Cancelled. Arrays
+//   come in as std::vector and go out as std::vector; what their numbers mean, their shapes, units and errors are told
+//   in ifsm.h beside the function of the same name. Callbacks are std::function. What one throws stops the call and
+//   comes out of it, unchanged: nothing unwinds through the library. Everything is inline over the C ABI, so a program
+//   built today runs with every later library of the same soname, whatever compiler or standard library built either.
+#ifndef IFSM_HPP
+#define IFSM_HPP
+
+#include <ifsm.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ifsm {
+
+// ------------------------------------------------------------------------------------------------------------------
+// Errors
+
+// What ifsm_last_error() tells, kept for as long as one likes. what() is the full sentence.
+class Error : public std::runtime_error {
+ public:
+  explicit Error(const ifsm_error& told)
+      : std::runtime_error(told.message),
+        status(told.status),
+        function(told.function),
+        argument(told.argument),
+        index(told.index),
+        value(told.value),
+        required(told.required) {}
+
+  ifsm_status status;     // IFSM_ERROR_…
+  std::string function;   // e.g. "ifsm_model_create"
+  std::string argument;   // the parameter or field to blame, or ""
+  std::int64_t index;     // the position in it, or -1
+  double value;           // the offending value, or NaN
+  std::int64_t required;  // what a count must be, or -1
+};
+
+// A callback or a token said stop.
+class Cancelled : public Error {
+ public:
+  using Error::Error;
+};
+
+namespace detail {
+
+[[noreturn]] inline void throw_last_error() {
+  ifsm_error told{};
+  told.struct_size = sizeof told;
+  if (ifsm_last_error(&told) != IFSM_OK) throw std::logic_error("ifsm_last_error refused its own header's struct.");
+  if (told.status == IFSM_ERROR_CANCELLED) throw Cancelled(told);
+  throw Error(told);
+}
+
+inline void check(ifsm_status status) {
+  if (status != IFSM_OK) throw_last_error();
+}
+
+inline std::int64_t size_of(std::size_t size) { return static_cast<std::int64_t>(size); }
+
+// The two-step call of every output array: how many, then which. call(array, capacity, count).
+template <class T, class Call>
+std::vector<T> fetch(const Call& call) {
+  std::int64_t count = 0;
+  check(call(nullptr, 0, &count));
+  std::vector<T> values(static_cast<std::size_t>(count));
+  if (count > 0) check(call(values.data(), count, &count));
+  return values;
+}
+
+// A result struct, its size set.
+template <class T, class Call>
+T describe(const Call& call) {
+  T told{};
+  told.struct_size = sizeof told;
+  check(call(&told));
+  return told;
+}
+
+// One handle, destroyed at the end.
+template <class Handle, ifsm_status (*Destroy)(Handle)>
+class Owner {
+ public:
+  Owner() noexcept = default;
+  explicit Owner(Handle handle) noexcept : handle_(handle) {}
+  Owner(Owner&& other) noexcept : handle_(other.release()) {}
+  Owner& operator=(Owner&& other) noexcept {
+    Owner(std::move(other)).swap(*this);
+    return *this;
+  }
+  Owner(const Owner&) = delete;
+  Owner& operator=(const Owner&) = delete;
+  ~Owner() { static_cast<void>(Destroy(handle_) == IFSM_OK); }
+
+  Handle get() const noexcept { return handle_; }
+  Handle release() noexcept { return std::exchange(handle_, Handle{}); }
+  void swap(Owner& other) noexcept { std::swap(handle_, other.handle_); }
+
+ private:
+  Handle handle_{};
+};
+
+}  // namespace detail
+
+// ------------------------------------------------------------------------------------------------------------------
+// The library
+
+inline std::string version() { return ifsm_version_text(); }
+
+// How many threads calls use: 0 is one a core. Never changes results.
+inline void set_threads(int threads) { detail::check(ifsm_set_threads(threads)); }
+inline int threads() {
+  std::int32_t count = 0;
+  detail::check(ifsm_threads(&count));
+  return count;
+}
+
+// ------------------------------------------------------------------------------------------------------------------
+// Cancel tokens: what one thread passes to a long call, so that another may stop it
+
+class Cancel {
+ public:
+  Cancel() {
+    ifsm_cancel made{};
+    detail::check(ifsm_cancel_create(&made));
+    handle_ = Owner(made);
+  }
+
+  // Calls that hold the token throw Cancelled within 100 ms. Final. Any thread.
+  void request() const { detail::check(ifsm_cancel_request(handle_.get())); }
+
+  bool requested() const {
+    std::int32_t requested = 0;
+    detail::check(ifsm_cancel_requested(handle_.get(), &requested));
+    return requested != 0;
+  }
+
+  ifsm_cancel handle() const noexcept { return handle_.get(); }
+
+ private:
+  using Owner = detail::Owner<ifsm_cancel, ifsm_cancel_destroy>;
+  Owner handle_;
+};
+
+// ------------------------------------------------------------------------------------------------------------------
+// Curves: ordered points, interleaved
+
+// Refers to the caller's points: keep them while the Curve is in use.
+class Curve {
+ public:
+  // `points` holds count × dimension doubles.
+  Curve(const std::vector<double>& points, int dimension, bool closed = false)
+      : Curve(points.data(), dimension > 0 ? detail::size_of(points.size()) / dimension : 0, dimension, closed) {
+    if (dimension > 0 && points.size() % static_cast<std::size_t>(dimension) != 0)
+      throw std::invalid_argument("ifsm::Curve: " + std::to_string(points.size()) +
+                                  " doubles are not points of dimension " + std::to_string(dimension) +
+                                  "; pass a multiple of it.");
+  }
+  Curve(std::vector<double>&&, int, bool = false) = delete;  // would refer to points that are gone
+  Curve(const double* points, std::int64_t count, int dimension, bool closed = false)
+      : curve_{points, count, dimension, closed ? 1 : 0} {}
+
+  const ifsm_curve& get() const noexcept { return curve_; }
+
+ private:
+  ifsm_curve curve_;
+};
+
+enum class Topology : std::int32_t { joined = IFSM_TOPOLOGY_JOINED, square = IFSM_TOPOLOGY_SQUARE };
+enum class Frame : std::int32_t { absolute = IFSM_FRAME_ABSOLUTE, node = IFSM_FRAME_NODE };
+enum class Follow : std::int32_t { polyline = IFSM_CURVE_POLYLINE, limit = IFSM_CURVE_LIMIT };
+enum class Resolve : std::int32_t {
+  none = IFSM_RESOLVE_NONE,
+  values = IFSM_RESOLVE_VALUES,
+  choice = IFSM_RESOLVE_CHOICE
+};
+enum class Format : std::int32_t { json = IFSM_FORMAT_JSON, cbor = IFSM_FORMAT_CBOR };
+
+// ------------------------------------------------------------------------------------------------------------------
+// Filters
+
+class Filter {
+ public:
+  Filter() = default;                                              // the null handle
+  explicit Filter(ifsm_filter owned) noexcept : handle_(owned) {}  // takes ownership
+
+  // By name, e.g. "casteljau"; 0 chooses the name's own numbers.
+  static Filter named(const std::string& name, Topology topology = Topology::joined, int control_points = 0,
+                      int maps = 0) {
+    return make([&](ifsm_filter* made) {
+      return ifsm_filter_named(name.c_str(), static_cast<std::int32_t>(topology), control_points, maps, made);
+    });
+  }
+
+  // From all of R, row-major.
+  static Filter from_matrix(Topology topology, int control_points, int maps, const std::vector<double>& matrix,
+                            int stride = 0) {
+    return make([&](ifsm_filter* made) {
+      return ifsm_filter_from_matrix(static_cast<std::int32_t>(topology), control_points, maps, stride, matrix.data(),
+                                     detail::size_of(matrix.size()), made);
+    });
+  }
+
+  // From T alone, row-major, with the canonical complement.
+  static Filter from_maps(Topology topology, int control_points, int maps, const std::vector<double>& matrix,
+                          int stride = 0) {
+    return make([&](ifsm_filter* made) {
+      return ifsm_filter_from_maps(static_cast<std::int32_t>(topology), control_points, maps, stride, matrix.data(),
+                                   detail::size_of(matrix.size()), made);
+    });
+  }
+
+  ifsm_filter_info describe() const {
+    return detail::describe<ifsm_filter_info>([&](auto* told) { return ifsm_filter_describe(handle(), told); });
+  }
+
+  // R: rows × rows, row-major.
+  std::vector<double> matrix() const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_filter_matrix(handle(), to...); });
+  }
+
+  ifsm_filter handle() const noexcept { return handle_.get(); }
+  ifsm_filter release() noexcept { return handle_.release(); }  // the caller destroys it
+
+ private:
+  template <class Call>
+  static Filter make(const Call& call) {
+    ifsm_filter made{};
+    detail::check(call(&made));
+    return Filter(made);
+  }
+
+  detail::Owner<ifsm_filter, ifsm_filter_destroy> handle_;
+};
+
+// ------------------------------------------------------------------------------------------------------------------
+// Which details a sketch keeps: all of the first levels, so many, or those above a threshold
+
+class Keep {
+ public:
+  explicit Keep(std::int32_t rule) {
+    detail::check(ifsm_keep_options_init(&options_, sizeof options_));
+    options_.rule = rule;
+  }
+  Keep& count(std::int64_t count) {
+    options_.count = count;
+    return *this;
+  }
+  Keep& threshold(double threshold) {
+    options_.threshold = threshold;
+    return *this;
+  }
+  // What is kept is solved anew, by least squares against the model's samples; or even chosen anew.
+  Keep& resolved(Resolve resolve = Resolve::values) {
+    options_.resolve = static_cast<std::int32_t>(resolve);
+    return *this;
+  }
+  // The token must live until the call ends.
+  Keep& cancelled_by(const Cancel& token) {
+    options_.cancel = token.handle();
+    return *this;
+  }
+  const ifsm_keep_options& get() const noexcept { return options_; }
+
+ private:
+  ifsm_keep_options options_{};
+};
+
+inline Keep first_levels(std::int64_t levels) { return Keep(IFSM_KEEP_LEVELS).count(levels); }
+inline Keep most_significant(std::int64_t details) { return Keep(IFSM_KEEP_COUNT).count(details); }
+inline Keep above(double threshold) { return Keep(IFSM_KEEP_THRESHOLD).threshold(threshold); }
+
+// ------------------------------------------------------------------------------------------------------------------
+// Models
+
+class Model {
+ public:
+  Model() = default;                                             // the null handle
+  explicit Model(ifsm_model owned) noexcept : handle_(owned) {}  // takes ownership
+
+  // The exact model of samples; 0 levels: as few as have a place for each.
+  Model(const Filter& filter, const Curve& samples, int levels = 0) {
+    ifsm_model_options options{};
+    detail::check(ifsm_model_options_init(&options, sizeof options));
+    options.levels = levels;
+    *this = make([&](ifsm_model* made) { return ifsm_model_create(filter.handle(), &samples.get(), &options, made); });
+  }
+
+  // A control polygon without details.
+  static Model from_polygon(const Filter& filter, const Curve& polygon, int levels) {
+    return make(
+        [&](ifsm_model* made) { return ifsm_model_from_polygon(filter.handle(), &polygon.get(), levels, made); });
+  }
+
+  // From a file's bytes, of either format.
+  static Model load(const std::vector<std::uint8_t>& bytes) {
+    return make([&](ifsm_model* made) { return ifsm_model_load(bytes.data(), detail::size_of(bytes.size()), made); });
+  }
+  std::vector<std::uint8_t> save(Format format) const {
+    return fetch<std::uint8_t>([&](auto... to) { return ifsm_model_save(handle(), number(format), to...); });
+  }
+
+  ifsm_model_info describe() const {
+    return detail::describe<ifsm_model_info>([&](auto* told) { return ifsm_model_describe(handle(), told); });
+  }
+  Filter filter() const {
+    ifsm_filter made{};
+    detail::check(ifsm_model_filter(handle(), &made));
+    return Filter(made);
+  }
+
+  // The curve: at its samples, as polygons of a level joined, at parameters.
+  std::vector<double> samples() const {
+    return fetch<double>([&](auto... to) { return ifsm_model_samples(handle(), to...); });
+  }
+  std::vector<double> points(int level) const {
+    return fetch<double>([&](auto... to) { return ifsm_model_points(handle(), level, to...); });
+  }
+  std::vector<double> evaluate(const std::vector<double>& parameters, Follow follow = Follow::polyline) const {
+    return fetch<double>([&](auto... to) {
+      return ifsm_model_evaluate(handle(), number(follow), parameters.data(), detail::size_of(parameters.size()),
+                                 to...);
+    });
+  }
+
+  // Parameters of the samples; parameters and addresses.
+  std::vector<double> parameters() const {
+    return fetch<double>([&](auto... to) { return ifsm_model_parameters(handle(), to...); });
+  }
+  std::vector<std::int32_t> address(double parameter, int length) const {
+    return fetch<std::int32_t>([&](auto... to) { return ifsm_model_address(handle(), parameter, length, to...); });
+  }
+  std::pair<double, double> interval(const std::vector<std::int32_t>& symbols) const {
+    std::pair<double, double> covered;
+    detail::check(ifsm_model_interval(handle(), symbols.data(), detail::size_of(symbols.size()), &covered.first,
+                                      &covered.second));
+    return covered;
+  }
+
+  // What the model consists of.
+  std::vector<double> control_points() const {
+    return fetch<double>([&](auto... to) { return ifsm_model_control_points(handle(), to...); });
+  }
+  std::vector<double> details(int level, Frame frame = Frame::absolute) const {
+    return fetch<double>([&](auto... to) { return ifsm_model_details(handle(), level, number(frame), to...); });
+  }
+  std::vector<double> significance(int level) const {
+    return fetch<double>([&](auto... to) { return ifsm_model_significance(handle(), level, to...); });
+  }
+
+  // Other models.
+  Model with_control_points(const std::vector<double>& points, Frame frame = Frame::node) const {
+    return make([&](ifsm_model* made) {
+      return ifsm_model_with_control_points(handle(), number(frame), points.data(), detail::size_of(points.size()),
+                                            made);
+    });
+  }
+  Model with_details(int level, const std::vector<double>& vectors, Frame frame = Frame::absolute) const {
+    return make([&](ifsm_model* made) {
+      return ifsm_model_with_details(handle(), level, number(frame), vectors.data(), detail::size_of(vectors.size()),
+                                     made);
+    });
+  }
+  Model with_filter(const Filter& filter) const {
+    return make([&](ifsm_model* made) { return ifsm_model_with_filter(handle(), filter.handle(), made); });
+  }
+  Model keep(const Keep& rule) const {
+    return make([&](ifsm_model* made) { return ifsm_model_keep(handle(), &rule.get(), made); });
+  }
+
+  ifsm_model handle() const noexcept { return handle_.get(); }
+  ifsm_model release() noexcept { return handle_.release(); }  // the caller destroys it
+
+ private:
+  template <class Enum>
+  static std::int32_t number(Enum value) {
+    return static_cast<std::int32_t>(value);
+  }
+  template <class T, class Call>
+  static std::vector<T> fetch(const Call& call) {
+    return detail::fetch<T>(call);
+  }
+  template <class Call>
+  static Model make(const Call& call) {
+    ifsm_model made{};
+    detail::check(call(&made));
+    return Model(made);
+  }
+
+  detail::Owner<ifsm_model, ifsm_model_destroy> handle_;
+};
+
+// ------------------------------------------------------------------------------------------------------------------
+// Fits
+
+// What a fit may be told; zero means the default everywhere, as in ifsm_fit_options.
+struct FitOptions {
+  int threads = 0;
+  const Filter* start = nullptr;      // where to start
+  int control_points = 0;             // -1: chosen
+  int maps = 0;                       // -1: chosen
+  std::vector<std::int64_t> budgets;  // of vectors, control points and details together
+  int iterations = 0;
+  int rounds = 0;
+  int polish = 0;  // -1: none
+  const Cancel* cancel = nullptr;
+  // Returns true to cancel. Runs on the calling thread; what it throws comes out of fit_sparse.
+  std::function<bool(double fraction, const std::string& stage)> progress;
+};
+
+class Fit {
+ public:
+  Fit() = default;                                           // the null handle
+  explicit Fit(ifsm_fit owned) noexcept : handle_(owned) {}  // takes ownership
+
+  // The exact model of a curve under the fitted filter.
+  Model model(std::int64_t curve) const {
+    ifsm_model made{};
+    detail::check(ifsm_fit_model(handle(), curve, &made));
+    return Model(made);
+  }
+  // The best sketch of a curve that was found for a budget.
+  Model sketch(std::int64_t curve, std::int64_t budget) const {
+    ifsm_model made{};
+    detail::check(ifsm_fit_sketch(handle(), curve, budget, &made));
+    return Model(made);
+  }
+  ifsm_fit_report describe() const {
+    return detail::describe<ifsm_fit_report>([&](auto* told) { return ifsm_fit_describe(handle(), told); });
+  }
+  ifsm_fit_budget describe_budget(std::int64_t curve, std::int64_t budget) const {
+    return detail::describe<ifsm_fit_budget>(
+        [&](auto* told) { return ifsm_fit_describe_budget(handle(), curve, budget, told); });
+  }
+
+  ifsm_fit handle() const noexcept { return handle_.get(); }
+  ifsm_fit release() noexcept { return handle_.release(); }  // the caller destroys it
+
+ private:
+  detail::Owner<ifsm_fit, ifsm_fit_destroy> handle_;
+};
+
+namespace detail {
+
+// Stands between the library and a std::function: an exception waits here until the library has returned.
+struct Trampoline {
+  const std::function<bool(double, const std::string&)>* progress;
+  std::exception_ptr thrown;
+
+  static std::int32_t call(void* user, double fraction, const char* stage) noexcept {
+    auto& self = *static_cast<Trampoline*>(user);
+    try {
+      return (*self.progress)(fraction, stage) ? 1 : 0;
+    } catch (...) {
+      self.thrown = std::current_exception();
+      return 1;
+    }
+  }
+};
+
+}  // namespace detail
+
+// One filter for all curves, under which few details tell them.
+inline Fit fit_sparse(const std::vector<Curve>& curves, const FitOptions& options = {}) {
+  std::vector<ifsm_curve> given;
+  given.reserve(curves.size());
+  for (const Curve& curve : curves) given.push_back(curve.get());
+
+  detail::Trampoline trampoline{&options.progress, nullptr};
+  ifsm_fit_options told{};
+  detail::check(ifsm_fit_options_init(&told, sizeof told));
+  told.threads = options.threads;
+  if (options.start != nullptr) told.start = options.start->handle();
+  told.control_points = options.control_points;
+  told.maps = options.maps;
+  told.budgets = options.budgets.empty() ? nullptr : options.budgets.data();
+  told.budget_count = detail::size_of(options.budgets.size());
+  told.iterations = options.iterations;
+  told.rounds = options.rounds;
+  told.polish = options.polish;
+  if (options.cancel != nullptr) told.cancel = options.cancel->handle();
+  if (options.progress) told.progress = detail::Trampoline::call, told.user = &trampoline;
+
+  ifsm_fit made{};
+  const ifsm_status status = ifsm_fit_sparse(given.data(), detail::size_of(given.size()), &told, &made);
+  Fit fit(made);
+  if (trampoline.thrown) std::rethrow_exception(trampoline.thrown);
+  detail::check(status);
+  return fit;
+}
+
+}  // namespace ifsm
+
+#endif  // IFSM_HPP

@@ -1,0 +1,167 @@
+// The C++ wrapper, compiled as C++17 and as C++20.
+#include <gtest/gtest.h>
+
+#include <ifsm.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "shapes.h"
+
+namespace {
+
+static_assert(!std::is_copy_constructible_v<ifsm::Model> && std::is_nothrow_move_constructible_v<ifsm::Model>);
+static_assert(!std::is_copy_constructible_v<ifsm::Filter> && std::is_nothrow_move_assignable_v<ifsm::Filter>);
+static_assert(sizeof(ifsm::Model) == sizeof(ifsm_model));
+static_assert(!std::is_constructible_v<ifsm::Curve, std::vector<double>&&, int>);
+
+const std::vector<double> samples = wavy(129);
+
+ifsm::Model wavy_model() {
+  return ifsm::Model(ifsm::Filter::named("casteljau", ifsm::Topology::joined, 3), {samples, 2});
+}
+
+ifsm::FitOptions quick() {
+  ifsm::FitOptions options;
+  options.control_points = 3;
+  options.iterations = 5;
+  options.rounds = 1;
+  return options;
+}
+
+TEST(Cpp, GivesTheSamplesBack) {
+  const auto points = wavy_model().samples();
+  ASSERT_EQ(points.size(), samples.size());
+  for (std::size_t i = 0; i < points.size(); ++i) ASSERT_NEAR(points[i], samples[i], 1e-11);
+}
+
+TEST(Cpp, ThrowsAllThatTheRecordSays) {
+  const ifsm::Model model = wavy_model();
+  try {
+    model.points(99);
+    FAIL();
+  } catch (const ifsm::Error& error) {
+    EXPECT_EQ(error.status, IFSM_ERROR_RANGE);
+    EXPECT_EQ(error.function, "ifsm_model_points");
+    EXPECT_EQ(error.argument, "level");
+    EXPECT_EQ(error.value, 99);
+    EXPECT_EQ(error.index, -1);
+    EXPECT_NE(std::string(error.what()).find("level"), std::string::npos);
+  }
+}
+
+TEST(Cpp, LeavesTheNullHandleBehindAMove) {
+  ifsm::Model model = wavy_model();
+  const auto id = model.handle().id;
+  ifsm::Model moved = std::move(model);
+  EXPECT_EQ(moved.handle().id, id);
+  EXPECT_EQ(model.handle().id, 0u);  // NOLINT: what a moved-from one is, is promised
+  EXPECT_THROW(model.describe(), ifsm::Error);
+  moved = wavy_model();
+  EXPECT_NE(moved.handle().id, id);
+  ifsm_model_info info{};
+  info.struct_size = sizeof info;
+  EXPECT_EQ(ifsm_model_describe(ifsm_model{id}, &info), IFSM_ERROR_INVALID_HANDLE);  // assignment destroyed the old one
+}
+
+TEST(Cpp, GivesItsHandleUpOnRelease) {
+  ifsm::Model model = wavy_model();
+  const ifsm_model released = model.release();
+  EXPECT_EQ(model.handle().id, 0u);
+  EXPECT_EQ(ifsm_model_destroy(released), IFSM_OK);
+}
+
+TEST(Cpp, MakesFiltersInEveryWay) {
+  const auto named = ifsm::Filter::named("casteljau", ifsm::Topology::joined, 3, 2);
+  const auto matrix = named.matrix();
+  ASSERT_EQ(matrix.size(), 25u);
+  EXPECT_EQ(ifsm::Filter::from_matrix(ifsm::Topology::joined, 3, 2, matrix).matrix(), matrix);
+  const std::vector<double> maps(matrix.begin(), matrix.begin() + 15);
+  EXPECT_EQ(ifsm::Filter::from_maps(ifsm::Topology::joined, 3, 2, maps).matrix(), matrix);
+  EXPECT_EQ(named.describe().rows, 5);
+  EXPECT_THROW(ifsm::Filter::named("nothing"), ifsm::Error);
+}
+
+TEST(Cpp, ReadsEveryPartOfAModel) {
+  const ifsm::Model model = wavy_model();
+  const auto info = model.describe();
+  EXPECT_EQ(info.samples, 129);
+  EXPECT_EQ(model.filter().describe().control_points, 3);
+  EXPECT_EQ(model.points(info.levels), model.samples());
+  EXPECT_EQ(model.points(0), model.control_points());
+  EXPECT_EQ(model.evaluate(model.parameters()), model.samples());
+  EXPECT_EQ(model.evaluate({}), std::vector<double>());
+  EXPECT_EQ(model.address(0.75, 2), (std::vector<std::int32_t>{1, 1}));
+  EXPECT_EQ(model.interval({1, 1}), (std::pair<double, double>(0.75, 1.0)));
+  EXPECT_EQ(model.details(1).size(), 2u * 2 * 2);
+  EXPECT_EQ(model.significance(1).size(), 2u * 2);
+}
+
+TEST(Cpp, MakesOtherModels) {
+  const ifsm::Model model = wavy_model();
+  auto polygon = model.control_points();
+  polygon[2] += 1;
+  EXPECT_NE(model.with_control_points(polygon).samples(), model.samples());
+  EXPECT_EQ(model.with_details(1, model.details(1)).samples(), model.samples());
+  EXPECT_EQ(model.with_filter(model.filter()).samples(), model.samples());
+  EXPECT_EQ(model.keep(ifsm::most_significant(7)).describe().details_kept, 7);
+  EXPECT_EQ(model.keep(ifsm::first_levels(1)).describe().details_kept, 2);
+  EXPECT_EQ(model.keep(ifsm::above(1e300)).describe().details_kept, 0);
+  EXPECT_LE(model.keep(ifsm::most_significant(7).resolved()).describe().details_kept, 7);
+  EXPECT_EQ(ifsm::Model::from_polygon(model.filter(), {polygon, 2}, 3).describe().samples, 17);
+}
+
+TEST(Cpp, ReadsWhatItWrites) {
+  const ifsm::Model model = wavy_model();
+  for (const auto format : {ifsm::Format::json, ifsm::Format::cbor})
+    EXPECT_EQ(ifsm::Model::load(model.save(format)).samples(), model.samples());
+}
+
+TEST(Cpp, FitsCurves) {
+  auto options = quick();
+  options.budgets = {6, 12};
+  const auto start = ifsm::Filter::named("casteljau", ifsm::Topology::joined, 3);
+  options.start = &start;
+  const ifsm::Fit fit = ifsm::fit_sparse({{samples, 2}}, options);
+  EXPECT_EQ(fit.describe().budgets, 2);
+  EXPECT_EQ(fit.describe_budget(0, 1).details, 9);
+  EXPECT_LE(fit.sketch(0, 1).describe().details_kept, 9);
+  EXPECT_EQ(fit.model(0).describe().samples, 129);
+  EXPECT_THROW(fit.model(1), ifsm::Error);
+}
+
+TEST(Cpp, CarriesWhatACallbackThrowsAroundTheLibrary) {
+  auto options = quick();
+  options.progress = [](double, const std::string&) -> bool { throw std::domain_error("mine"); };
+  EXPECT_THROW(ifsm::fit_sparse({{samples, 2}}, options), std::domain_error);
+}
+
+TEST(Cpp, IsCancelledByACallbackOrAToken) {
+  auto options = quick();
+  options.progress = [](double, const std::string&) { return true; };
+  EXPECT_THROW(ifsm::fit_sparse({{samples, 2}}, options), ifsm::Cancelled);
+  const ifsm::Cancel token;
+  EXPECT_FALSE(token.requested());
+  token.request();
+  EXPECT_TRUE(token.requested());
+  EXPECT_THROW(wavy_model().keep(ifsm::most_significant(3).cancelled_by(token)), ifsm::Cancelled);
+}
+
+TEST(Cpp, RefusesPointsThatAreNotWhole) {
+  const std::vector<double> odd{1, 2, 3};
+  EXPECT_THROW(ifsm::Curve(odd, 2), std::invalid_argument);
+}
+
+TEST(Cpp, SetsThreads) {
+  ifsm::set_threads(2);
+  EXPECT_EQ(ifsm::threads(), 2);
+  ifsm::set_threads(0);
+  EXPECT_THROW(ifsm::set_threads(-1), ifsm::Error);
+  EXPECT_EQ(ifsm::version(), ifsm_version_text());
+}
+
+}  // namespace
