@@ -1,0 +1,390 @@
+// Each function, with its first, second, third … allocation failing, until it gets by without: one child process a
+// failure. The child must end by itself, the call answer IFSM_ERROR_MEMORY (or get by), its output stay untouched, what
+// was made before stay usable, and nothing be lost.
+#include <gtest/gtest.h>
+#include <ifsm.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "failing_malloc.h"
+
+namespace {
+
+// How a child ends.
+enum Ending : int {
+  succeeded = 0,        // no allocation was left to fail
+  refused = 1,          // IFSM_ERROR_MEMORY
+  got_by = 2,           // the allocation failed, the call did without
+  wrong_status = 10,    // another error
+  wrong_record = 11,    // the error record says something else
+  touched_output = 12,  // the call failed and wrote
+  broke_what_was_there = 13,
+  leaked = 14,
+  not_ready = 15,  // the call fails with all the memory there is
+};
+
+struct World {
+  ifsm_filter filter{};
+  ifsm_model model{};
+  ifsm_fit fit{};
+  std::vector<double> samples, matrix, details, polygon;
+  std::vector<std::uint8_t> json, cbor;
+  std::vector<double> room = std::vector<double>(4096);
+  std::vector<std::uint8_t> byte_room = std::vector<std::uint8_t>(1 << 18);
+  ifsm_curve curve{};
+};
+
+struct Scenario {
+  const char* name;
+  const char* function;
+  int threads;
+  std::int64_t every;  // 1: each allocation; 7: each seventh, when there are very many
+  ifsm_status (*run)(World& world, std::uint64_t* made);  // destroys nothing
+  ifsm_status (*drop)(std::uint64_t made);
+};
+
+std::ostream& operator<<(std::ostream& out, const Scenario& scenario) { return out << scenario.name; }
+
+ifsm_status drop_nothing(std::uint64_t) { return IFSM_OK; }
+ifsm_status drop_cancel(std::uint64_t id) { return ifsm_cancel_destroy({id}); }
+ifsm_status drop_filter(std::uint64_t id) { return ifsm_filter_destroy({id}); }
+ifsm_status drop_model(std::uint64_t id) { return ifsm_model_destroy({id}); }
+ifsm_status drop_fit(std::uint64_t id) { return ifsm_fit_destroy({id}); }
+
+template <class Handle>
+Handle* as(std::uint64_t* made) {
+  static_assert(sizeof(Handle) == sizeof *made);
+  return reinterpret_cast<Handle*>(made);
+}
+
+ifsm_status fit_with_polish(World& world, std::uint64_t* made, std::int32_t polish) {
+  const std::int64_t budget = 6;
+  ifsm_fit_options options{};
+  options.budgets = &budget;
+  options.budget_count = 1;
+  options.polish = polish;
+  options.struct_size = sizeof options;
+  options.control_points = 3;
+  options.iterations = options.rounds = 1;
+  const ifsm_curve few = {world.samples.data(), 9, 2, 0};
+  return ifsm_fit_sparse(&few, 1, &options, as<ifsm_fit>(made));
+}
+
+ifsm_status fit_small(World& world, std::uint64_t* made) { return fit_with_polish(world, made, -1); }
+ifsm_status fit_polished(World& world, std::uint64_t* made) { return fit_with_polish(world, made, 1); }
+
+ifsm_status keep_with(World& world, std::uint64_t* made, std::int32_t resolve) {
+  ifsm_keep_options options{};
+  options.struct_size = sizeof options;
+  options.rule = IFSM_KEEP_COUNT;
+  options.count = 10;
+  options.resolve = resolve;
+  return ifsm_model_keep(world.model, &options, as<ifsm_model>(made));
+}
+
+ifsm_status keep_resolved(World& world, std::uint64_t* made) { return keep_with(world, made, IFSM_RESOLVE_VALUES); }
+ifsm_status keep_choice(World& world, std::uint64_t* made) { return keep_with(world, made, IFSM_RESOLVE_CHOICE); }
+
+ifsm_status evaluate(World& world, std::uint64_t*) {
+  const double parameters[] = {0.25, 0.7, 1};
+  std::int64_t count = 0;
+  return ifsm_model_evaluate(world.model, IFSM_CURVE_LIMIT, parameters, 3, world.room.data(), 4096, &count);
+}
+
+ifsm_status save(World& world, std::int32_t format) {
+  std::int64_t count = 0;
+  return ifsm_model_save(world.model, format, world.byte_room.data(), static_cast<std::int64_t>(world.byte_room.size()),
+                         &count);
+}
+
+// World handed in, handle or nothing handed out.
+const Scenario scenarios[] = {
+    {"cancel_create", "ifsm_cancel_create", 1, 1,
+     [](World&, std::uint64_t* made) { return ifsm_cancel_create(as<ifsm_cancel>(made)); }, drop_cancel},
+    {"filter_named_joined", "ifsm_filter_named", 1, 1,
+     [](World&, std::uint64_t* made) {
+       return ifsm_filter_named("casteljau", IFSM_TOPOLOGY_JOINED, 5, 3, as<ifsm_filter>(made));
+     },
+     drop_filter},
+    {"filter_named_square", "ifsm_filter_named", 1, 1,
+     [](World&, std::uint64_t* made) {
+       return ifsm_filter_named("bspline", IFSM_TOPOLOGY_SQUARE, 0, 0, as<ifsm_filter>(made));
+     },
+     drop_filter},
+    {"filter_from_matrix", "ifsm_filter_from_matrix", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_filter_from_matrix(IFSM_TOPOLOGY_JOINED, 3, 2, 0, world.matrix.data(), 25, as<ifsm_filter>(made));
+     },
+     drop_filter},
+    {"filter_from_maps", "ifsm_filter_from_maps", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_filter_from_maps(IFSM_TOPOLOGY_JOINED, 3, 2, 0, world.matrix.data(), 15, as<ifsm_filter>(made));
+     },
+     drop_filter},
+    {"model_create", "ifsm_model_create", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_model_create(world.filter, &world.curve, nullptr, as<ifsm_model>(made));
+     },
+     drop_model},
+    {"model_create_two_threads", "ifsm_model_create", 2, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_model_create(world.filter, &world.curve, nullptr, as<ifsm_model>(made));
+     },
+     drop_model},
+    {"model_from_polygon", "ifsm_model_from_polygon", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       const ifsm_curve polygon = {world.polygon.data(), 3, 2, 0};
+       return ifsm_model_from_polygon(world.filter, &polygon, 5, as<ifsm_model>(made));
+     },
+     drop_model},
+    {"model_filter", "ifsm_model_filter", 1, 1,
+     [](World& world, std::uint64_t* made) { return ifsm_model_filter(world.model, as<ifsm_filter>(made)); },
+     drop_filter},
+    {"model_samples", "ifsm_model_samples", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_model_samples(world.model, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"model_points", "ifsm_model_points", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_model_points(world.model, 4, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"model_evaluate", "ifsm_model_evaluate", 1, 1, evaluate, drop_nothing},
+    {"model_evaluate_two_threads", "ifsm_model_evaluate", 2, 1, evaluate, drop_nothing},
+    {"model_details", "ifsm_model_details", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_model_details(world.model, 3, IFSM_FRAME_NODE, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"model_significance", "ifsm_model_significance", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_model_significance(world.model, 3, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"model_with_control_points", "ifsm_model_with_control_points", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_model_with_control_points(world.model, IFSM_FRAME_NODE, world.polygon.data(), 6,
+                                             as<ifsm_model>(made));
+     },
+     drop_model},
+    {"model_with_details", "ifsm_model_with_details", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_model_with_details(world.model, 3, IFSM_FRAME_NODE, world.details.data(),
+                                      static_cast<std::int64_t>(world.details.size()), as<ifsm_model>(made));
+     },
+     drop_model},
+    {"model_with_filter", "ifsm_model_with_filter", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_model_with_filter(world.model, world.filter, as<ifsm_model>(made));
+     },
+     drop_model},
+    {"model_keep_resolve", "ifsm_model_keep", 1, 1, keep_resolved, drop_model},
+    {"model_keep_resolve_two_threads", "ifsm_model_keep", 2, 5, keep_resolved, drop_model},
+    {"model_keep_choice", "ifsm_model_keep", 1, 5, keep_choice, drop_model},
+    {"model_save_json", "ifsm_model_save", 1, 1,
+     [](World& world, std::uint64_t*) { return save(world, IFSM_FORMAT_JSON); }, drop_nothing},
+    {"model_save_cbor", "ifsm_model_save", 1, 1,
+     [](World& world, std::uint64_t*) { return save(world, IFSM_FORMAT_CBOR); }, drop_nothing},
+    {"model_load_json", "ifsm_model_load", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_model_load(world.json.data(), static_cast<std::int64_t>(world.json.size()), as<ifsm_model>(made));
+     },
+     drop_model},
+    {"model_load_cbor", "ifsm_model_load", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_model_load(world.cbor.data(), static_cast<std::int64_t>(world.cbor.size()), as<ifsm_model>(made));
+     },
+     drop_model},
+    {"fit_model", "ifsm_fit_model", 1, 1,
+     [](World& world, std::uint64_t* made) { return ifsm_fit_model(world.fit, 0, as<ifsm_model>(made)); }, drop_model},
+    {"fit_sketch", "ifsm_fit_sketch", 1, 1,
+     [](World& world, std::uint64_t* made) { return ifsm_fit_sketch(world.fit, 0, 0, as<ifsm_model>(made)); },
+     drop_model},
+    {"fit_sparse", "ifsm_fit_sparse", 1, 1, fit_small, drop_fit},
+    {"fit_sparse_polished", "ifsm_fit_sparse", 1, 7, fit_polished, drop_fit},
+};
+
+template <class T, class Read>
+std::vector<T> read(Read function) {
+  std::int64_t count = 0;
+  EXPECT_EQ(function(nullptr, std::int64_t{0}, &count), IFSM_OK);
+  std::vector<T> values(static_cast<std::size_t>(count));
+  EXPECT_EQ(function(values.data(), count, &count), IFSM_OK);
+  return values;
+}
+
+// One thread, so that no TBB worker exists when children are forked off.
+World make_world() {
+  EXPECT_EQ(ifsm_set_threads(1), IFSM_OK);
+  World world;
+  for (int k = 0; k < 129; ++k) world.samples.insert(world.samples.end(), {1.0 * k, 1.0 * ((k * k) % 31)});
+  world.curve = {world.samples.data(), 129, 2, 0};
+  world.polygon = {0, 0, 50, 30, 128, 5};
+  EXPECT_EQ(ifsm_filter_named("casteljau", IFSM_TOPOLOGY_JOINED, 3, 2, &world.filter), IFSM_OK);
+  EXPECT_EQ(ifsm_model_create(world.filter, &world.curve, nullptr, &world.model), IFSM_OK);
+  EXPECT_EQ(fit_small(world, &world.fit.id), IFSM_OK);
+  world.matrix = read<double>([&](double* to, std::int64_t room, std::int64_t* count) {
+    return ifsm_filter_matrix(world.filter, to, room, count);
+  });
+  world.details = read<double>([&](double* to, std::int64_t room, std::int64_t* count) {
+    return ifsm_model_details(world.model, 3, IFSM_FRAME_NODE, to, room, count);
+  });
+  for (const std::int32_t format : {IFSM_FORMAT_JSON, IFSM_FORMAT_CBOR})
+    (format == IFSM_FORMAT_JSON ? world.json : world.cbor) =
+        read<std::uint8_t>([&](std::uint8_t* to, std::int64_t room, std::int64_t* count) {
+          return ifsm_model_save(world.model, format, to, room, count);
+        });
+  return world;
+}
+
+// Bits of the model that was made before: what it gives now is what it gave then.
+bool still_usable(World& world) {
+  std::vector<double> now(world.samples.size());
+  std::int64_t count = 0;
+  const auto room = static_cast<std::int64_t>(now.size());
+  if (ifsm_model_samples(world.model, now.data(), room, &count) != IFSM_OK || count != room) return false;
+  const double tolerance = 1e-9;  // far above rounding, far below any damage
+  return std::equal(now.begin(), now.end(), world.samples.begin(),
+                    [&](double a, double b) { return std::abs(a - b) < tolerance; });
+}
+
+// In the child: a first run warms up what is made once (TBB, tables, the error record), the next one fails.
+Ending run_child(const Scenario& scenario, World& world, std::int64_t which) {
+  if (ifsm_set_threads(scenario.threads) != IFSM_OK || ifsm_filter_destroy({1}) != IFSM_ERROR_INVALID_HANDLE)
+    return not_ready;
+  std::int64_t before = 0;
+  for (int warm_up = 0; warm_up < 2; ++warm_up) {
+    std::uint64_t made = 0;
+    if (scenario.run(world, &made) != IFSM_OK || scenario.drop(made) != IFSM_OK) return not_ready;
+    before = failing_malloc::live();
+  }
+
+  std::uint64_t made = 0;
+  failing_malloc::arm(which);
+  const ifsm_status status = scenario.run(world, &made);
+  const bool failed = failing_malloc::disarm();
+
+  if (status == IFSM_OK) {
+    if (scenario.drop(made) != IFSM_OK) return broke_what_was_there;
+  } else {
+    ifsm_error error{};
+    error.struct_size = sizeof error;
+    if (status != IFSM_ERROR_MEMORY) return wrong_status;
+    if (made != 0) return touched_output;
+    if (ifsm_last_error(&error) != IFSM_OK || error.status != status ||
+        std::strcmp(error.function, scenario.function) != 0 || std::strlen(error.message) < 20)
+      return wrong_record;
+  }
+  // With TBB, tasks of other threads may be freed a little later: leaks are looked for with one thread.
+  if (scenario.threads == 1 && failing_malloc::live() > before) return leaked;
+  if (!still_usable(world)) return broke_what_was_there;
+  made = 0;
+  if (scenario.run(world, &made) != IFSM_OK || scenario.drop(made) != IFSM_OK) return broke_what_was_there;
+  if (!failed) return succeeded;
+  return status == IFSM_OK ? got_by : refused;
+}
+
+struct Tally {
+  std::int64_t sites = 0, refused = 0, got_by = 0, leaked = 0, aborted = 0;
+};
+
+Tally fail_one_by_one(const Scenario& scenario, World& world) {
+  Tally tally;
+  for (std::int64_t which = 1;; which += scenario.every) {
+    const pid_t child = fork();
+    if (child == 0) {
+      alarm(60);  // a child that hangs is a failure as well
+      // Ceres and glog may say something about what happened; that is not this test's output.
+      if (freopen("/dev/null", "w", stderr) == nullptr) _exit(not_ready);
+      _exit(run_child(scenario, world, which));
+    }
+    int status = 0;
+    if (child < 0 || waitpid(child, &status, 0) != child) {
+      ADD_FAILURE() << "no child";
+      return tally;
+    }
+    if (WIFSIGNALED(status)) {
+      ++tally.sites;
+      if (WTERMSIG(status) == SIGABRT)
+        ++tally.aborted;
+      else
+        ADD_FAILURE() << scenario.name << ": allocation " << which << " failing ends in signal " << WTERMSIG(status);
+      continue;
+    }
+    const int ending = WEXITSTATUS(status);
+    if (ending == succeeded) return tally;
+    ++tally.sites;
+    const bool through_ceres = std::string(scenario.function) == "ifsm_fit_sparse";
+    if (ending == refused)
+      ++tally.refused;
+    else if (ending == got_by)
+      ++tally.got_by;
+    else if (ending == leaked && through_ceres)
+      ++tally.leaked;
+    else
+      ADD_FAILURE() << scenario.name << ": allocation " << which << " failing ends in " << ending;
+    if (ending == not_ready || testing::Test::HasFatalFailure()) return tally;
+  }
+}
+
+class OutOfMemory : public testing::TestWithParam<Scenario> {};
+
+TEST_P(OutOfMemory, IsAnErrorAndNothingElse) {
+  World world = make_world();
+  ASSERT_FALSE(HasFailure());
+  const Tally tally = fail_one_by_one(GetParam(), world);
+  std::cout << GetParam().name << ": " << tally.sites << " allocations failed, " << tally.refused << " refused, "
+            << tally.got_by << " got by, " << tally.leaked << " leaked, " << tally.aborted << " aborted\n";
+  // Ceres 2.1 allocates in a destructor (its timer's statistics): where that fails, the process ends. And where
+  // Problem::AddResidualBlock runs out of memory, it loses a block of its own. Those are the exceptions, and they are
+  // held to the number of places that there are today, in a fit of one round.
+  const std::int64_t rounds = std::string(GetParam().name) == "fit_sparse_polished" ? 2 : 1;
+  const bool through_ceres = std::string(GetParam().function) == "ifsm_fit_sparse";
+  EXPECT_LE(tally.aborted, through_ceres ? 8 * rounds : 0);
+  EXPECT_LE(tally.leaked, through_ceres ? 3 * rounds : 0);
+  EXPECT_EQ(ifsm_fit_destroy(world.fit), IFSM_OK);
+  EXPECT_EQ(ifsm_model_destroy(world.model), IFSM_OK);
+  EXPECT_EQ(ifsm_filter_destroy(world.filter), IFSM_OK);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, OutOfMemory, testing::ValuesIn(scenarios),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+// The instrument itself: it counts, fails once, and tells.
+TEST(FailingMalloc, FailsTheAllocationThatItIsToldAndNoOther) {
+  failing_malloc::arm(2);
+  void* first = std::malloc(10);
+  void* second = std::malloc(10);
+  void* third = std::malloc(10);
+  EXPECT_TRUE(failing_malloc::disarm());
+  EXPECT_NE(first, nullptr);
+  EXPECT_EQ(second, nullptr);
+  EXPECT_NE(third, nullptr);
+  std::free(first);
+  std::free(third);
+
+  failing_malloc::arm(1);
+  bool thrown = false;
+  try {
+    std::vector<double> values(static_cast<std::size_t>(failing_malloc::counted()) + 10);
+  } catch (const std::bad_alloc&) {
+    thrown = true;
+  }
+  EXPECT_TRUE(failing_malloc::disarm());
+  EXPECT_TRUE(thrown) << "operator new does not stand on this malloc";
+}
+
+}  // namespace
