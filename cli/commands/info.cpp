@@ -1,0 +1,124 @@
+// ifsm info: what a model holds.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "commands/command.h"
+#include "curves.h"
+#include "files.h"
+#include "report.h"
+
+namespace cli {
+namespace {
+
+struct InfoArguments {
+  std::string model;
+  bool json = false;
+};
+
+struct LevelSummary {
+  std::int64_t details = 0;
+  std::int64_t kept = 0;
+  double energy = 0;   // the sum of squared significances
+  double largest = 0;  // significance
+};
+
+LevelSummary summary(const ifsm::Model& model, int level) {
+  LevelSummary sum;
+  for (const double value : model.significance(level)) {
+    ++sum.details;
+    sum.kept += value != 0;
+    sum.energy += value * value;
+    sum.largest = std::max(sum.largest, value);
+  }
+  return sum;
+}
+
+const char* contractive_name(std::int32_t contractive) {
+  return contractive > 0 ? "proven" : contractive < 0 ? "refuted" : "undecided";
+}
+
+Json report_of(const std::string& name, const ifsm::Model& model) {
+  const auto info = model.describe();
+  const auto filter = model.filter().describe();
+  Json levels = Json::array();
+  for (int level = 0; level < info.levels; ++level) {
+    const auto sum = summary(model, level);
+    levels.push_back({{"level", level},
+                      {"details", sum.details},
+                      {"kept", sum.kept},
+                      {"energy", sum.energy},
+                      {"rms", std::sqrt(sum.energy / static_cast<double>(info.places))},
+                      {"largest", sum.largest}});
+  }
+  return {{"model", name},
+          {"dimension", info.dimension},
+          {"closed", info.closed == 1},
+          {"samples", info.samples},
+          {"levels", info.levels},
+          {"places", info.places},
+          {"control_points", info.control_points},
+          {"maps", info.maps},
+          {"topology", info.topology == IFSM_TOPOLOGY_JOINED ? "joined" : "square"},
+          {"details", info.details},
+          {"details_kept", info.details_kept},
+          {"diagonal", info.diagonal},
+          {"largest_polygon", info.largest_polygon},
+          {"condition", filter.condition},
+          {"contractive", contractive_name(filter.contractive)},
+          {"energy_by_level", levels}};
+}
+
+std::string line(const std::string& name, const std::string& value) {
+  return "  " + name + std::string(18 - name.size(), ' ') + value + "\n";
+}
+
+std::string in_words(const Json& report) {
+  const auto text = [](const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); };
+  const auto number = [](const Json& value) { return rounded(value.get<double>()); };
+  double energy = 0;
+  for (const auto& level : report["energy_by_level"]) energy += level["energy"].get<double>();
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& level : report["energy_by_level"]) {
+    const double share = energy > 0 ? level["energy"].get<double>() / energy * 100 : 0;
+    rows.push_back({text(level["level"]), text(level["details"]), text(level["kept"]), number(level["rms"]),
+                    number(level["largest"]), rounded(share, 3) + " %"});
+  }
+  return text(report["model"]) + "\n" +
+         line("curve", std::string(report["closed"] ? "closed" : "open") + ", dimension " + text(report["dimension"]) +
+                           ", " + text(report["samples"]) + " samples") +
+         line("diagonal", number(report["diagonal"]) + " (of the samples' bounding box)") +
+         line("filter",
+              text(report["topology"]) + ", n = " + text(report["control_points"]) + ", N = " + text(report["maps"])) +
+         line("condition", number(report["condition"])) + line("contractive", text(report["contractive"])) +
+         line("levels", text(report["levels"]) + ", " + text(report["places"]) + " places at the finest") +
+         line("details", text(report["details_kept"]) + " of " + text(report["details"]) + " are not zero") +
+         line("largest polygon", number(report["largest_polygon"]) + " diagonals") + "\n" +
+         aligned({"level", "details", "kept", "RMS effect", "largest", "energy"}, rows);
+}
+
+void run(const InfoArguments& arguments) {
+  const auto model = load_model(arguments.model);
+  const auto report = report_of(input_name(arguments.model), model);
+  if (arguments.json)
+    print(report);
+  else
+    print(in_words(report));
+}
+
+}  // namespace
+
+void add_info(CLI::App& program, Session&) {
+  auto* command = program.add_subcommand("info", "Tell what a model holds");
+  auto arguments = std::make_shared<InfoArguments>();
+  command->add_option("model", arguments->model, "A model written by ifsm fit; - is standard input")->required();
+  command->add_flag("--json", arguments->json, "Report as JSON");
+  command->footer(
+      "RMS effect: what the details of a level do to the curve, in the units of the samples.\n\n"
+      "Examples:\n"
+      "  ifsm info coast.ifsm\n"
+      "  ifsm info coast.ifsm --json\n");
+  command->callback([arguments] { run(*arguments); });
+}
+
+}  // namespace cli

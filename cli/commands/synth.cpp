@@ -1,0 +1,147 @@
+// ifsm synth: model in, points out; all of its details, or a sketch.
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "commands/command.h"
+#include "curves.h"
+#include "failure.h"
+#include "files.h"
+#include "report.h"
+
+namespace cli {
+namespace {
+
+struct SynthArguments {
+  std::string model;
+  PointsOutput output;
+  std::optional<int> keep_levels;
+  std::optional<std::int64_t> keep_details;
+  std::optional<double> threshold;
+  std::string resolve;  // empty: not asked for
+  std::optional<std::int64_t> count;
+  std::optional<int> level;
+  Talk talk;
+};
+
+bool keeps_all(const SynthArguments& arguments) {
+  return !arguments.keep_levels && !arguments.keep_details && !arguments.threshold;
+}
+
+ifsm::Keep rule_of(const SynthArguments& arguments) {
+  if (arguments.keep_levels) return ifsm::first_levels(*arguments.keep_levels);
+  if (arguments.keep_details) return ifsm::most_significant(*arguments.keep_details);
+  return ifsm::above(*arguments.threshold);
+}
+
+ifsm::Resolve resolve_of(const SynthArguments& arguments) {
+  if (arguments.resolve.empty()) return ifsm::Resolve::none;
+  return arguments.resolve == "choice" ? ifsm::Resolve::choice : ifsm::Resolve::values;
+}
+
+ifsm::Model sketch_of(const ifsm::Model& model, const SynthArguments& arguments, Session& session) {
+  const Interrupt::Cancellable job(session.interrupt);
+  auto sketch = model.keep(rule_of(arguments).resolved(resolve_of(arguments)).cancelled_by(job.token()));
+  job.confirm();
+  return sketch;
+}
+
+// Equally spaced in parameter: both ends of an open curve; once round a closed one.
+std::vector<double> spaced(std::int64_t count, bool closed) {
+  const auto steps = static_cast<double>(closed || count == 1 ? count : count - 1);
+  std::vector<double> parameters;
+  for (std::int64_t k = 0; k < count; ++k) parameters.push_back(static_cast<double>(k) / steps);
+  return parameters;
+}
+
+std::vector<double> points_of(const ifsm::Model& model, const SynthArguments& arguments) {
+  const auto info = model.describe();
+  if (arguments.level && *arguments.level > info.levels)
+    throw Failure(Exit::Usage, "--level: the model has the levels 0 to " + std::to_string(info.levels) + ".");
+  if (arguments.level) return model.points(*arguments.level);
+  if (arguments.count) return model.evaluate(spaced(*arguments.count, info.closed == 1));
+  return model.samples();
+}
+
+Json report_of(const SynthArguments& arguments, const ifsm::Model& model, const ifsm::Model& sketch, std::size_t rows) {
+  const auto info = sketch.describe();
+  const auto apart = distance(model.samples(), sketch.samples(), info.dimension);
+  return {{"model", input_name(arguments.model)},
+          {"output", arguments.output.path},
+          {"points", rows},
+          {"dimension", info.dimension},
+          {"details", info.details},
+          {"details_kept", info.details_kept},
+          {"rms", apart.rms},
+          {"max", apart.max}};
+}
+
+std::string in_words(const Json& report) {
+  return report["output"].get<std::string>() + ": " + report["points"].dump() + " points; " +
+         report["details_kept"].dump() + " of " + report["details"].dump() + " details, RMS " + rounded(report["rms"]) +
+         " and at most " + rounded(report["max"]) + " from the model\n";
+}
+
+void run(const SynthArguments& arguments, Session& session) {
+  refuse_json_beside_result(arguments.talk, arguments.output.path);
+  if (!arguments.resolve.empty() && keeps_all(arguments))
+    throw Failure(Exit::Usage, "--resolve solves anew what is kept; add --levels, --details or --threshold.");
+  check_writable(arguments.output.path);
+  const auto model = load_model(arguments.model);
+  ifsm::Model reduced;
+  if (!keeps_all(arguments)) reduced = sketch_of(model, arguments, session);
+  const auto& sketch = keeps_all(arguments) ? model : reduced;
+
+  const auto dimension = sketch.describe().dimension;
+  Table table{coordinate_names(dimension), static_cast<std::size_t>(dimension), points_of(sketch, arguments)};
+  const auto rows = table.rows();
+  arguments.output.write(std::move(table));
+
+  if (arguments.output.path == "-") return;
+  if (!arguments.talk.json && arguments.talk.quiet) return;
+  const auto report = report_of(arguments, model, sketch, rows);
+  if (arguments.talk.json)
+    print(report);
+  else
+    print(in_words(report));
+}
+
+}  // namespace
+
+void add_synth(CLI::App& program, Session& session) {
+  auto* command = program.add_subcommand("synth", "Write the points of a model, or of a sketch of it");
+  auto arguments = std::make_shared<SynthArguments>();
+  auto& a = *arguments;
+  command->add_option("model", a.model, "A model written by ifsm fit; - is standard input")->required();
+  add_points_output(*command, a.output);
+  auto* levels = command->add_option("--levels", a.keep_levels, "Keep the details of the first so many levels only")
+                     ->check(CLI::NonNegativeNumber);
+  auto* details = command->add_option("--details", a.keep_details, "Keep so many details, the most significant ones")
+                      ->check(CLI::NonNegativeNumber)
+                      ->excludes(levels);
+  command->add_option("--threshold", a.threshold, "Keep the details whose significance is above this")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(levels)
+      ->excludes(details);
+  command
+      ->add_flag("--resolve{values}", a.resolve,
+                 "Solve the kept details and control points anew, by least squares; --resolve=choice also betters "
+                 "which details are kept (slower)")
+      ->check(CLI::IsMember({"values", "choice"}));
+  auto* count = command->add_option("--samples", a.count, "So many points, equally spaced in parameter")
+                    ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int32_t>::max() + std::int64_t{0}));
+  command->add_option("--level", a.level, "The points of a level; 0 is the control polygon")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(count);
+  add_talk(*command, a.talk);
+  command->footer(
+      "Without options: the samples that the model was made from.\n\n"
+      "Examples:\n"
+      "  ifsm synth coast.ifsm -o points.csv\n"
+      "  ifsm synth coast.ifsm --details 64 --resolve=choice -o sketch.csv\n"
+      "  ifsm synth coast.ifsm --level 0            (the control polygon)\n"
+      "  ifsm synth coast.ifsm --levels 4 --samples 1000 --separator tab\n");
+  command->callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace cli

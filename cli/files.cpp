@@ -1,0 +1,191 @@
+#include "files.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <mutex>
+#include <system_error>
+
+#include "failure.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int error) { return std::system_category().message(error); }
+
+[[noreturn]] void fail_input(const std::string& path, const std::string& what) {
+  throw Failure(Exit::Input, input_name(path) + " " + what + ".");
+}
+
+[[noreturn]] void fail_output(const std::string& path, const std::string& what) {
+  throw Failure(Exit::Output, output_name(path) + " cannot be written: " + what + ".");
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int number() const { return number_; }
+  bool valid() const { return number_ >= 0; }
+  // 0, or the error that only closing brings to light (full quotas, network disks).
+  int close() {
+    if (!valid()) return 0;
+    const int failed = ::close(number_);
+    number_ = -1;
+    return failed == 0 ? 0 : errno;
+  }
+
+ private:
+  int number_;
+};
+
+std::string read_all(int descriptor, const std::string& path) {
+  std::string bytes;
+  for (std::array<char, 1 << 16> chunk;;) {
+    const ssize_t count = ::read(descriptor, chunk.data(), chunk.size());
+    if (count == 0) return bytes;
+    if (count > 0)
+      bytes.append(chunk.data(), static_cast<std::size_t>(count));
+    else if (errno == EISDIR)
+      fail_input(path, "is a directory; name a file");
+    else if (errno != EINTR)
+      fail_input(path, "cannot be read: " + reason(errno));
+  }
+}
+
+// 0 or the error.
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+    if (count >= 0)
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    else if (errno != EINTR)
+      return errno;
+  }
+  return 0;
+}
+
+bool is_special(const fs::path& path) {
+  std::error_code ignored;
+  const auto status = fs::status(path, ignored);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+// Where the bytes really go: a symbolic link stays one, and its target is replaced.
+fs::path destination(const std::string& path) {
+  std::error_code error;
+  const auto resolved = fs::weakly_canonical(path, error);
+  return error ? fs::path(path) : resolved;
+}
+
+// What a file made by open() would get, or what the file to be replaced has.
+mode_t mode_for(const fs::path& target) {
+  struct stat existing;
+  if (::stat(target.c_str(), &existing) == 0) return existing.st_mode & 07777;
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return 0666 & ~mask;
+}
+
+std::mutex writing;      // held while `unfinished` is set or cleared
+std::string unfinished;  // the new file that no rename has made whole yet
+
+class NewFile {
+ public:
+  NewFile(const std::string& path, const fs::path& target)
+      : path_(path), target_(target), name_((folder_of(target) / ".ifsm-XXXXXX").string()), descriptor_(create()) {
+    if (!descriptor_.valid()) fail_output(path_, reason(errno));
+  }
+  ~NewFile() {
+    const std::lock_guard lock(writing);
+    if (!unfinished.empty()) ::unlink(unfinished.c_str());
+    unfinished.clear();
+  }
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  void fill(std::string_view bytes) {
+    int error = write_all(descriptor_.number(), bytes);
+    if (error == 0 && ::fchmod(descriptor_.number(), mode_for(target_)) != 0) error = errno;
+    if (error == 0 && ::fsync(descriptor_.number()) != 0) error = errno;
+    if (error == 0) error = descriptor_.close();
+    if (error != 0) fail_output(path_, reason(error));
+  }
+
+  void take_its_name() {
+    const std::lock_guard lock(writing);
+    if (::rename(name_.c_str(), target_.c_str()) != 0) fail_output(path_, reason(errno));
+    unfinished.clear();
+  }
+
+ private:
+  int create() {
+    const std::lock_guard lock(writing);
+    const int descriptor = ::mkostemp(name_.data(), O_CLOEXEC);
+    if (descriptor >= 0) unfinished = name_;
+    return descriptor;
+  }
+
+  const std::string& path_;
+  const fs::path& target_;
+  std::string name_;
+  Descriptor descriptor_;
+};
+
+void check_special(const std::string& path) {
+  if (::access(path.c_str(), W_OK) != 0) fail_output(path, reason(errno));
+}
+
+}  // namespace
+
+std::string input_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+std::string output_name(const std::string& path) { return path == "-" ? "standard output" : path; }
+
+std::string read_file(const std::string& path) {
+  if (path == "-") return read_all(STDIN_FILENO, path);
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!file.valid()) fail_input(path, "cannot be opened: " + reason(errno));
+  return read_all(file.number(), path);
+}
+
+void check_writable(const std::string& path) {
+  if (path == "-") return;
+  if (is_special(path)) return check_special(path);
+  const auto target = destination(path);
+  if (fs::is_directory(target)) fail_output(path, "it is a directory; name a file in it");
+  if (::access(folder_of(target).c_str(), W_OK | X_OK) != 0)
+    fail_output(path, folder_of(target).string() + ": " + reason(errno));
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  check_writable(path);
+  if (path == "-" || is_special(path)) {
+    Descriptor file(path == "-" ? ::dup(STDOUT_FILENO) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    const int error = file.valid() ? write_all(file.number(), bytes) : errno;
+    const int late = file.close();
+    if (error != 0 || late != 0) fail_output(path, reason(error != 0 ? error : late));
+    return;
+  }
+  const auto target = destination(path);
+  NewFile file(path, target);
+  file.fill(bytes);
+  file.take_its_name();
+}
+
+void abandon_writing() {
+  writing.lock();  // for ever: the process ends
+  if (!unfinished.empty()) ::unlink(unfinished.c_str());
+}
+
+}  // namespace cli

@@ -1,0 +1,64 @@
+// ifsm: the program. What it computes, it asks of the library, through the C ABI alone.
+#include <cstdio>
+#include <exception>
+
+#include <ifsm.hpp>
+
+#include "commands/command.h"
+#include "failure.h"
+
+namespace {
+
+constexpr const char* footer =
+    "Exit codes:\n"
+    "  0    fine\n"
+    "  1    the computation failed\n"
+    "  2    usage: an option, a value, or a combination that does not go\n"
+    "  3    input: a file that is missing, unreadable, or not what it should be\n"
+    "  4    output: a file that cannot be written\n"
+    "  130  cancelled by Ctrl-C or a signal; nothing was written\n"
+    "\n"
+    "Examples:\n"
+    "  ifsm fit coast.csv --closed -o coast.ifsm\n"
+    "  ifsm info coast.ifsm\n"
+    "  ifsm synth coast.ifsm --details 64 --resolve=choice -o sketch.csv\n"
+    "  ifsm eval coast.ifsm --at 0.25,0.5\n"
+    "\n"
+    "ifsm COMMAND --help tells the options of a command.\n";
+
+int fail(cli::Exit code, const char* message) {
+  std::fprintf(stderr, "ifsm: %s\n", message);
+  return static_cast<int>(code);
+}
+
+int run(int argc, char** argv) {
+  cli::Session session;
+  CLI::App program("Fractal detail models of measured curves", "ifsm");
+  program.set_version_flag("--version", "ifsm " + ifsm::version());
+  program.require_subcommand(1);
+  program.footer(footer);
+  for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval}) add(program, session);
+  try {
+    program.parse(argc, argv);
+    return static_cast<int>(cli::Exit::Fine);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : static_cast<int>(cli::Exit::Usage);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const cli::Failure& failure) {
+    return fail(failure.code, failure.what());
+  } catch (const ifsm::Cancelled&) {
+    return fail(cli::Exit::Cancelled, cli::cancelled);
+  } catch (const ifsm::Error& error) {
+    // What the commands let through unchecked are numbers that the library found out of its range.
+    return fail(error.status == IFSM_ERROR_RANGE ? cli::Exit::Usage : cli::Exit::Computing, error.what());
+  } catch (const std::exception& error) {
+    return fail(cli::Exit::Computing, error.what());
+  }
+}

@@ -1,0 +1,150 @@
+#include "canvas.h"
+
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+namespace plot {
+
+Canvas::Canvas(int width, int height)
+    : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), context_(cairo_create(surface_.get())) {
+  colour(palette::paper);
+  cairo_paint(context_.get());
+  cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
+}
+
+void Canvas::colour(Colour c) { cairo_set_source_rgb(context_.get(), c.red, c.green, c.blue); }
+
+void Canvas::select(const Font& font) {
+  cairo_select_font_face(context_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         font.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context_.get(), font.size);
+}
+
+double Canvas::text_width(const std::string& words, const Font& font) {
+  select(font);
+  cairo_text_extents_t extents;
+  cairo_text_extents(context_.get(), words.c_str(), &extents);
+  return extents.x_advance;
+}
+
+double Canvas::line_height(const Font& font) {
+  select(font);
+  cairo_font_extents_t extents;
+  cairo_font_extents(context_.get(), &extents);
+  return extents.ascent + extents.descent;
+}
+
+// Where the pen is set down.
+Point Canvas::start_of(const std::string& words, Point at, const Font& font, Align along) {
+  const double width = text_width(words, font);
+  const double shift = along == Align::Start ? 0 : along == Align::Middle ? width / 2 : width;
+  cairo_font_extents_t extents;
+  cairo_font_extents(context_.get(), &extents);
+  return {at.x - shift, at.y + (extents.ascent - extents.descent) / 2};
+}
+
+void Canvas::text(const std::string& words, Point at, const Font& font, Align along) {
+  const Point pen = start_of(words, at, font, along);
+  colour(font.colour);
+  cairo_move_to(context_.get(), pen.x, pen.y);
+  cairo_show_text(context_.get(), words.c_str());
+}
+
+void Canvas::text_over(const std::string& words, Point at, const Font& font, Align along) {
+  const Point pen = start_of(words, at, font, along);
+  cairo_move_to(context_.get(), pen.x, pen.y);
+  cairo_text_path(context_.get(), words.c_str());
+  colour(palette::paper);
+  cairo_set_line_width(context_.get(), 7);
+  cairo_stroke(context_.get());
+  text(words, at, font, along);
+}
+
+void Canvas::upward_text(const std::string& words, Point middle, const Font& font) {
+  cairo_save(context_.get());
+  cairo_translate(context_.get(), middle.x, middle.y);
+  cairo_rotate(context_.get(), -std::numbers::pi / 2);
+  text(words, {}, font, Align::Middle);
+  cairo_restore(context_.get());
+}
+
+std::vector<std::string> Canvas::wrapped(const std::string& words, const Font& font, double width) {
+  std::vector<std::string> lines;
+  std::istringstream stream(words);
+  for (std::string word; stream >> word;) {
+    const bool fits = !lines.empty() && text_width(lines.back() + " " + word, font) <= width;
+    if (fits)
+      lines.back() += " " + word;
+    else
+      lines.push_back(word);
+  }
+  return lines;
+}
+
+void Canvas::trace(const std::vector<Point>& points) {
+  cairo_new_path(context_.get());
+  for (const auto& point : points) cairo_line_to(context_.get(), point.x, point.y);
+}
+
+void Canvas::polyline(const std::vector<Point>& points, const Stroke& stroke) {
+  trace(points);
+  colour(stroke.colour);
+  cairo_set_line_width(context_.get(), stroke.width);
+  cairo_set_dash(context_.get(), stroke.dashes.data(), static_cast<int>(stroke.dashes.size()), 0);
+  cairo_stroke(context_.get());
+  cairo_set_dash(context_.get(), nullptr, 0, 0);
+}
+
+void Canvas::polygon(const std::vector<Point>& points, Colour fill) {
+  trace(points);
+  cairo_close_path(context_.get());
+  colour(fill);
+  cairo_fill(context_.get());
+}
+
+void Canvas::dot(Point centre, double radius, Colour fill, Colour rim) {
+  cairo_new_path(context_.get());
+  cairo_arc(context_.get(), centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
+  colour(fill);
+  cairo_fill_preserve(context_.get());
+  colour(rim);
+  cairo_set_line_width(context_.get(), 1.5);
+  cairo_stroke(context_.get());
+}
+
+void Canvas::box(const Box& box, Colour fill) {
+  cairo_rectangle(context_.get(), box.left, box.top, box.width, box.height);
+  colour(fill);
+  cairo_fill(context_.get());
+}
+
+void Canvas::frame(const Box& box, const Stroke& stroke) {
+  polyline({{box.left, box.top},
+            {box.right(), box.top},
+            {box.right(), box.bottom()},
+            {box.left, box.bottom()},
+            {box.left, box.top}},
+           stroke);
+}
+
+Canvas::Clip::Clip(Canvas& canvas, const Box& inside) : context_(canvas.context_.get()) {
+  cairo_save(context_);
+  cairo_rectangle(context_, inside.left, inside.top, inside.width, inside.height);
+  cairo_clip(context_);
+}
+
+Canvas::Clip::~Clip() { cairo_restore(context_); }
+
+std::string Canvas::png() const {
+  std::string bytes;
+  const auto append = [](void* target, const unsigned char* data, unsigned int length) {
+    static_cast<std::string*>(target)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  const auto status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);
+  if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(cairo_status_to_string(status));
+  return bytes;
+}
+
+}  // namespace plot

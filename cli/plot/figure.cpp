@@ -1,0 +1,54 @@
+#include "figure.h"
+
+#include <numeric>
+
+namespace plot {
+namespace {
+
+const Font headline{32, true, palette::ink};
+const Font small_print{20, false, {0.35, 0.35, 0.37}};
+constexpr double margin = 30;
+constexpr double gutter = 34;  // between panels
+
+// Draws words in the box's upper left and gives back what is left of it.
+Box take_lines(Canvas& canvas, Box rest, const std::string& words, const Font& font) {
+  const double height = canvas.line_height(font) * 1.1;
+  for (const auto& line : canvas.wrapped(words, font, rest.width)) {
+    canvas.text(line, {rest.left, rest.top + height / 2}, font);
+    rest = {rest.left, rest.top + height, rest.width, rest.height - height};
+  }
+  return rest;
+}
+
+double height_of(Canvas& canvas, const std::string& words, const Font& font, double width) {
+  return static_cast<double>(canvas.wrapped(words, font, width).size()) * canvas.line_height(font) * 1.1;
+}
+
+}  // namespace
+
+std::string Figure::png() const {
+  Canvas canvas(width, height);
+  Box page{margin, margin, width - 2 * margin, height - 2 * margin};
+  page = take_lines(canvas, page, title, headline);
+  const double foot = height_of(canvas, note, small_print, page.width);
+  take_lines(canvas, {page.left, page.bottom() - foot, page.width, foot}, note, small_print);
+
+  const Box area{page.left, page.top + gutter / 2, page.width,
+                 page.height - gutter / 2 - (foot > 0 ? foot + gutter / 2 : 0)};
+  const auto across = static_cast<std::size_t>(columns);
+  const std::size_t rows = (panels.size() + across - 1) / across;
+  const auto widths = shares.empty() ? std::vector<double>(across, 1.0) : shares;
+  const double unit = (area.width - gutter * (columns - 1)) / std::accumulate(widths.begin(), widths.end(), 0.0);
+  const double tall = (area.height - gutter * static_cast<double>(rows - 1)) / static_cast<double>(rows);
+  double left = area.left;
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    const std::size_t column = i % across;
+    if (column == 0) left = area.left;
+    const double top = area.top + static_cast<double>(i / across) * (tall + gutter);
+    panels[i].draw(canvas, {left, top, unit * widths[column], tall});
+    left += unit * widths[column] + gutter;
+  }
+  return canvas.png();
+}
+
+}  // namespace plot

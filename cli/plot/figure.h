@@ -1,0 +1,23 @@
+// A page of panels under one title.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "panel.h"
+
+namespace plot {
+
+struct Figure {
+  int width = 1600;  // pixels
+  int height = 1200;
+  int columns = 1;
+  std::string title;
+  std::string note;                 // a line or two below the panels
+  std::vector<double> shares = {};  // of the columns' widths; equal when empty
+  std::vector<Panel> panels = {};   // row by row
+
+  std::string png() const;
+};
+
+}  // namespace plot

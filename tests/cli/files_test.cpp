@@ -1,0 +1,87 @@
+// Files are replaced whole or not at all.
+#include "files.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "failure.h"
+
+namespace cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "ifsm-files-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  std::size_t count() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), {})); }
+  static Exit code_of(const std::function<void()>& action) {
+    try {
+      action();
+      return Exit::Fine;
+    } catch (const Failure& failure) {
+      return failure.code;
+    }
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Files, WhatIsWrittenIsReadAndNothingElseIsLeft) {
+  const std::string bytes("a\0b\n", 4);
+  write_file(at("x"), "before");
+  write_file(at("x"), bytes);
+  EXPECT_EQ(read_file(at("x")), bytes);
+  EXPECT_EQ(count(), 1u);
+}
+
+TEST_F(Files, ASymbolicLinkStaysOne) {
+  write_file(at("target"), "old");
+  fs::create_symlink("target", at("link"));
+  write_file(at("link"), "new");
+  EXPECT_TRUE(fs::is_symlink(at("link")));
+  EXPECT_EQ(read_file(at("target")), "new");
+}
+
+TEST_F(Files, ANewFileHasTheUsualModeAndAReplacedOneKeepsItsOwn) {
+  const mode_t mask = ::umask(022);
+  write_file(at("new"), "");
+  EXPECT_EQ(fs::status(at("new")).permissions(), fs::perms(0644));
+  fs::permissions(at("new"), fs::perms(0600));
+  write_file(at("new"), "again");
+  EXPECT_EQ(fs::status(at("new")).permissions(), fs::perms(0600));
+  ::umask(mask);
+}
+
+TEST_F(Files, WhatCannotBeWrittenIsKnownBeforehand) {
+  EXPECT_EQ(code_of([&] { check_writable(folder_.string()); }), Exit::Output);
+  EXPECT_EQ(code_of([&] { check_writable(at("missing/x")); }), Exit::Output);
+  EXPECT_EQ(code_of([&] { check_writable(at("x")); }), Exit::Fine);
+  EXPECT_EQ(count(), 0u);
+}
+
+TEST_F(Files, ADeviceIsWrittenToAndStaysADevice) {
+  write_file("/dev/null", "gone");
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  EXPECT_EQ(code_of([] { write_file("/dev/full", "no room"); }), Exit::Output);
+}
+
+TEST_F(Files, WhatCannotBeReadIsAnInputFailure) {
+  EXPECT_EQ(code_of([&] { read_file(at("missing")); }), Exit::Input);
+  EXPECT_EQ(code_of([&] { read_file(folder_.string()); }), Exit::Input);
+}
+
+}  // namespace
+}  // namespace cli
