@@ -6,7 +6,7 @@ build := cmake --build -j$(jobs) --preset
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 22
 
-demo: release ## draw the coast of Iceland with 1024, 128 and 16 details: out/
+demo: release ## fit the coast of Iceland: pictures and a table of errors in out/
 	@$(build) release --target ifsm_demo
 	build/release/bin/ifsm-demo data/coast/iceland.csv out
 

@@ -157,7 +157,9 @@ class SparseFit {
 
   State start_state() {
     State state = chosen(start_->matrix());
-    pursue(state, last_pursuit_trials);
+    for (std::size_t c = 0; c < jobs_.size(); ++c)
+      for (Choice& choice : state.choices[c])
+        choice = best_choice(jobs_[c].solver, state.matrix, choice.kept, jobs_[c].data, last_pursuit_trials, watch_);
     return state;
   }
 

@@ -321,7 +321,8 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_from_polygon(ifsm_filter filter, c
  * Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_describe(ifsm_model model, ifsm_model_info *info);
 
-/* filter   [out] a handle on the model's filter, owned by the caller. Errors: INVALID_HANDLE, NULL, MEMORY. Since 0.1. */
+/* filter   [out] a handle on the model's filter, owned by the caller. Errors: INVALID_HANDLE, NULL, MEMORY.
+ * Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_filter(ifsm_model model, ifsm_filter *filter);
 
 /* {0} is fine. Errors: INVALID_HANDLE. Since 0.1. */
@@ -455,7 +456,7 @@ enum {
 /* What becomes of the values that are kept. */
 enum {
   IFSM_RESOLVE_NONE = 0,   /* they stay as analysis gave them */
-  IFSM_RESOLVE_VALUES = 1, /* control points and kept details are solved anew: least squares against this model's samples */
+  IFSM_RESOLVE_VALUES = 1, /* control points and kept details are solved anew: least squares against the samples */
   IFSM_RESOLVE_CHOICE = 2  /* and which details are kept is bettered, their number staying: the nearest sketch, the
                               slowest (joined; square: as VALUES) */
 };

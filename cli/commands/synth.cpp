@@ -124,9 +124,9 @@ void add_synth(CLI::App& program, Session& session) {
       ->excludes(levels)
       ->excludes(details);
   command
-      ->add_flag("--resolve{values}", a.resolve,
-                 "Solve the kept details and control points anew, by least squares; --resolve=choice also betters "
-                 "which details are kept (slower)")
+      ->add_flag("--resolve{choice}", a.resolve,
+                 "Solve the kept details and control points anew, by least squares, and better which details are kept; "
+                 "--resolve=values leaves the choice as it is")
       ->check(CLI::IsMember({"values", "choice"}));
   auto* count = command->add_option("--samples", a.count, "So many points, equally spaced in parameter")
                     ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int32_t>::max() + std::int64_t{0}));
@@ -138,7 +138,7 @@ void add_synth(CLI::App& program, Session& session) {
       "Without options: the samples that the model was made from.\n\n"
       "Examples:\n"
       "  ifsm synth coast.ifsm -o points.csv\n"
-      "  ifsm synth coast.ifsm --details 64 --resolve=choice -o sketch.csv\n"
+      "  ifsm synth coast.ifsm --details 64 --resolve -o sketch.csv\n"
       "  ifsm synth coast.ifsm --level 0            (the control polygon)\n"
       "  ifsm synth coast.ifsm --levels 4 --samples 1000 --separator tab\n");
   command->callback([arguments, &session] { run(*arguments, session); });

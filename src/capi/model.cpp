@@ -90,7 +90,8 @@ ifsm_status ifsm_model_describe(ifsm_model handle, ifsm_model_info* info) {
     told.details = model->details_total();
     told.details_kept = model->details_kept();
     told.diagonal = model->parts().diagonal;
-    told.largest_polygon = model->parts().largest_polygon;
+    const auto& parts = model->parts();
+    told.largest_polygon = parts.diagonal > 0 ? parts.largest_polygon / parts.diagonal : 0.0;
     Report(info, "info").write(told);
   });
 }

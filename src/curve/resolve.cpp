@@ -60,7 +60,7 @@ ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch
   TreeSolver solver = solver_of(model);
   const Lanes data = lanes_of(line(model, model.levels()));
   const RowMatrix& filter = model.filter().matrix();
-  const Choice choice = pursued(solver, filter, solved(solver, filter, kept, data, watch), data, pursuit_trials, watch);
+  const Choice choice = best_choice(solver, filter, kept, data, pursuit_trials, watch);
   return resolve(model, choice.kept, watch);
 }
 
@@ -99,6 +99,27 @@ Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const 
     }
   }
   return best;
+}
+
+Choice gathered(TreeSolver& solver, const RowMatrix& filter, Index count, const Lanes& data, const Watch& watch) {
+  constexpr Index batches = 12;
+  const auto all = static_cast<std::size_t>(solver.details());
+  Choice choice = solved(solver, filter, Kept(all, char{0}), data, watch);
+  for (Index batch = 1; batch <= batches; ++batch) {
+    std::vector<double> wish = solver.scores(choice.solution);
+    for (std::size_t i = 0; i < all; ++i)
+      if (choice.kept[i]) wish[i] = std::numeric_limits<double>::infinity();
+    choice = solved(solver, filter, largest(wish, count * batch / batches), data, watch);
+  }
+  return choice;
+}
+
+Choice best_choice(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, int trials,
+                   const Watch& watch) {
+  const auto count = static_cast<Index>(std::ranges::count(kept, char{1}));
+  Choice given = pursued(solver, filter, solved(solver, filter, kept, data, watch), data, trials, watch);
+  Choice fresh = pursued(solver, filter, gathered(solver, filter, count, data, watch), data, trials, watch);
+  return fresh.squared_error < given.squared_error ? fresh : given;
 }
 
 }  // namespace ifsm::core

@@ -10,8 +10,7 @@ namespace ifsm::core {
 // square: by conjugate gradients.
 ModelPtr resolve(const Model& model, const Kept& kept, const Watch& watch);
 
-// A better choice of as many details, then solved (joined; square: the choice stays): subspace pursuit, that is, adds
-// the details that would help most, drops those that help least, and keeps what is better. Never worse than `kept`.
+// A better choice of as many details, then solved (joined; square: the choice stays). Never worse than `kept`.
 ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch);
 
 // The pieces, for the fit: what a joined model's samples ask of the finest line.
@@ -24,9 +23,18 @@ struct Choice {
   double squared_error;
 };
 
-// `kept` as it is, and bettered by at most `trials` rounds of pursuit.
+// `kept` as it is.
 Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, const Watch& watch);
+// Subspace pursuit, at most `trials` rounds: adds the details that would help most, drops those that help least, keeps
+// what is better.
 Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Lanes& data, int trials,
                const Watch& watch);
+
+// `count` details gathered from none, those first that help most beside what is there: a start that does not trust the
+// size of the details, which under an ill-conditioned filter are large and cancel.
+Choice gathered(TreeSolver& solver, const RowMatrix& filter, Index count, const Lanes& data, const Watch& watch);
+// The better one of both starts, pursued.
+Choice best_choice(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, int trials,
+                   const Watch& watch);
 
 }  // namespace ifsm::core

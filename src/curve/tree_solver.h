@@ -42,6 +42,7 @@ class TreeSolver {
   double squared_error(const Lanes& data, const Lanes& curve) const;
 
   const Eigen::VectorXd& weight() const { return weight_; }
+  Index details() const { return node_count() * shape_.details_per_node(); }
 
   // What factor() found of a node: which details are kept, the inverse of their block, and what they follow the node's
   // polygon by. Of the root: the inverse of the control points' form.

@@ -162,7 +162,7 @@ class Options(Program):
     def test_every_way_to_resolve_comes_nearer(self):
         model, out = self.model(), self.file("out.csv")
         rms = [json.loads(self.fine("synth", model, "--details", 30, *resolve, "--json", "-o", out))["rms"]
-               for resolve in ([], ["--resolve"], ["--resolve=choice"])]
+               for resolve in ([], ["--resolve=values"], ["--resolve"])]
         self.assertEqual(rms, sorted(rms, reverse=True))
         self.refused(2, "--resolve", "synth", model, "--details", "30", "--resolve=guess")
 
