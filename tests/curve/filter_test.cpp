@@ -135,6 +135,16 @@ TEST(Filter, InverseIsTheInverseWithExactJoints) {
   }
 }
 
+TEST(Filter, InverseIsRightToTheLastDigitsWhateverTheCondition) {
+  using Long = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  for (const Shape& shape : all_shapes(16, 4)) {
+    const FilterPtr filter = casteljau(shape);
+    const RowMatrix wanted = Long(filter->matrix().cast<long double>()).partialPivLu().inverse().cast<double>();
+    // Entries are of very different size; rounding is that of the largest. 4: a step of Newton's, and this one's own.
+    EXPECT_LE((filter->inverse() - wanted).cwiseAbs().maxCoeff(), 4 * epsilon * wanted.cwiseAbs().maxCoeff()) << shape;
+  }
+}
+
 TEST(Filter, GivesItsMapsAndDetailMapsByTheirColumns) {
   const FilterPtr koch = named_filter("koch", Topology::joined, 0, 0);
   for (int i = 0; i < 4; ++i) {

@@ -9,6 +9,8 @@
 
 #include "base/parallel.h"
 #include "curve/keep.h"
+#include "curve/resolve.h"
+#include "curve/significance.h"
 #include "curves.h"
 
 namespace ifsm::core {
@@ -60,27 +62,41 @@ TEST(SparseFit, TellsOfSketchesWhatTheyAre) {
   EXPECT_LT(rms(*result.models[0], points), 1e-13 * result.final_condition * diagonal(points));
 }
 
-TEST(SparseFit, FindsTheKochFilterAgainFromAPerturbedStart) {
-  const Points points = koch_samples(4);
-  const FilterPtr koch = named_filter("koch", Topology::joined, 0, 0);
-  EXPECT_LT(rms(*keep(*analyze(koch, points, false), first_levels(*analyze(koch, points, false), 0)), points), 1e-15);
-
-  RowMatrix matrix = koch->matrix();
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> step(-0.03, 0.03);
+RowMatrix shaken(RowMatrix matrix, double by, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> step(-by, by);
   for (Index c = 1; c + 1 < matrix.cols(); ++c) {
     for (Index r = 0; r < matrix.rows(); ++r) matrix(r, c) += step(random);
     matrix(0, c) += 1 - matrix.col(c).head(3).sum();
   }
-  FitOptions options = quick({3});
-  options.start = std::make_shared<Filter>(koch->shape(), matrix);
-  options.iterations = 100;
-  options.polish_rounds = 20;
-  const FitResult result = fitted({{points, false}}, options);
-  // Whatever basis the control points have come to, three of them and no detail are the whole curve. The squared error
-  // is what is minimised, so that it is known to eps: the error to its root.
-  EXPECT_GT(result.budgets[0][0].start.rms, 1e-3);
-  EXPECT_LT(result.budgets[0][0].fitted.rms, 1e-7);
+  return matrix;
+}
+
+double largest_significance(const Model& model) {
+  double largest = 0;
+  for (int level = 0; level < model.levels(); ++level)
+    largest = std::max(largest, significance(model, level).maxCoeff());
+  return largest;
+}
+
+// Up to a change of the control points' basis, which the curve does not see: that there is no detail left says it all.
+TEST(SparseFit, FindsTheKochFilterAgainFromAPerturbedStart) {
+  const Points points = koch_samples(4);
+  const FilterPtr koch = named_filter("koch", Topology::joined, 0, 0);
+  EXPECT_LT(largest_significance(*analyze(koch, points, false)), 1e-13);
+  for (const unsigned seed : {5U, 6U}) {
+    FitOptions options = quick({12});
+    options.start = std::make_shared<Filter>(koch->shape(), shaken(koch->matrix(), 0.03, seed));
+    options.iterations = 100;
+    options.polish_rounds = 20;
+    const FitResult result = fitted({{points, false}}, options);
+    const Model& model = *result.models[0];
+    // Levenberg-Marquardt stops when a step changes the error by less than a ten-thousandth: far below what a
+    // perturbation of 0.03 leaves, 1e-1 here, and above rounding.
+    EXPECT_GT(largest_significance(*analyze(options.start, points, false)), 1e-2);
+    EXPECT_LT(largest_significance(model), 1e-7);
+    EXPECT_LT(rms(*resolve(model, first_levels(model, 0), Watch{}), points), 1e-9);
+  }
 }
 
 TEST(SparseFit, GivesTheSameBitsAgainAndOnAnyNumberOfThreads) {
