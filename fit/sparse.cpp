@@ -181,7 +181,7 @@ class SparseFit {
     return curves;
   }
 
-  State made_sparse(State state, Watch watch) {
+  State made_sparse(const State& state, Watch watch) {
     // The scale of the first round is that of the plain choice: a bettered one would set it too low.
     State plain = chosen(state.matrix);
     for (int round = 0; round < options_.sparse_rounds; ++round) {

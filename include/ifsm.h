@@ -519,7 +519,7 @@ typedef struct ifsm_fit {
 
 typedef struct ifsm_fit_options {
   uint32_t struct_size;
-  int32_t threads;        /* 0: as ifsm_set_threads says */
+  int32_t threads;        /* at most so many, 0: as ifsm_set_threads says; this version's fit runs on one */
   ifsm_filter start;      /* borrowed: where to start, joined, its shape instead of the one below; {0}: casteljau */
   int32_t control_points; /* n, 2 … 16; 0: 5; -1: chosen among 2 … 6 */
   int32_t maps;           /* N, 2 … 8; 0: 2; -1: chosen among 2 … 4 */

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "curve/filter.h"
 
@@ -15,14 +16,16 @@ struct Input {
   int step;
 };
 
-// Node q's results are data[q·count] …, those of the matrix' columns first_column … first_column + count - 1.
+// Node q's results: those of the first columns are first[q·first_count] …, the others second[q·second_count] ….
 struct Output {
-  double* data;
-  int first_column;
-  int count;
+  double* first;
+  int first_count;
+  double* second;
+  int second_count;
 };
 
-// For every node: output = (first | second) · matrix, on the output's columns.
-void multiply(const RowMatrix& matrix, Index nodes, const Input& first, const Input& second, const Output& output);
+// For every node: output = (first | second) · matrix, on the columns `chosen` of the matrix.
+void multiply(const RowMatrix& matrix, const std::vector<int>& chosen, Index nodes, const Input& first,
+              const Input& second, const Output& output);
 
 }  // namespace ifsm::core::kernel

@@ -1,5 +1,8 @@
 #include "curve/transform.h"
 
+#include <numeric>
+#include <vector>
+
 #include "curve/kernel.h"
 
 namespace ifsm::core {
@@ -7,6 +10,12 @@ namespace {
 
 using Row = Eigen::Map<Eigen::RowVectorXd>;
 using ConstRow = Eigen::Map<const Eigen::RowVectorXd>;
+
+std::vector<int> columns(int first, int count) {
+  std::vector<int> result(static_cast<std::size_t>(count));
+  std::iota(result.begin(), result.end(), first);
+  return result;
+}
 
 Index nodes_of(const Shape& shape, ConstLine coarse) {
   return (static_cast<Index>(coarse.size()) - (shape.joined() ? 1 : 0)) / shape.polygon_step();
@@ -43,23 +52,28 @@ void analyze_level(const Filter& filter, ConstLine fine, Line coarse, Line detai
 // the polygon's last point. The same on the way up.
 void synthesize_level(const Filter& filter, ConstLine coarse, ConstLine details, Line fine) {
   const Shape& shape = filter.shape();
-  const kernel::Input polygons{coarse.data(), shape.control_points(), shape.polygon_step()};
-  const kernel::Input added{details.data(), shape.details_per_node(), shape.details_per_node()};
-  const kernel::Output children{fine.data(), 0, shape.children_step()};
-  kernel::multiply(filter.matrix(), nodes_of(shape, coarse), polygons, added, children);
+  kernel::multiply(filter.matrix(), columns(0, shape.children_step()), nodes_of(shape, coarse),
+                   {coarse.data(), shape.control_points(), shape.polygon_step()},
+                   {details.data(), shape.details_per_node(), shape.details_per_node()},
+                   {fine.data(), shape.children_step(), nullptr, 0});
   if (shape.joined()) fine.back() = coarse.back();
 }
 
 void analyze_level(const Filter& filter, ConstLine fine, Line coarse, Line details) {
   const Shape& shape = filter.shape();
-  coarsen_level(shape, filter.inverse(), fine, coarse);
-  kernel::multiply(filter.inverse(), nodes_of(shape, coarse), {fine.data(), shape.rows(), shape.children_step()},
-                   {nullptr, 0, 0}, {details.data(), shape.control_points(), shape.details_per_node()});
+  std::vector<int> chosen = columns(0, shape.polygon_step());
+  const std::vector<int> added = columns(shape.control_points(), shape.details_per_node());
+  chosen.insert(chosen.end(), added.begin(), added.end());
+  kernel::multiply(filter.inverse(), chosen, nodes_of(shape, coarse),
+                   {fine.data(), shape.rows(), shape.children_step()}, {nullptr, 0, 0},
+                   {coarse.data(), shape.polygon_step(), details.data(), shape.details_per_node()});
+  if (shape.joined()) coarse.back() = fine.back();
 }
 
 void coarsen_level(const Shape& shape, const RowMatrix& inverse, ConstLine fine, Line coarse) {
-  kernel::multiply(inverse, nodes_of(shape, coarse), {fine.data(), shape.rows(), shape.children_step()},
-                   {nullptr, 0, 0}, {coarse.data(), 0, shape.polygon_step()});
+  kernel::multiply(inverse, columns(0, shape.polygon_step()), nodes_of(shape, coarse),
+                   {fine.data(), shape.rows(), shape.children_step()}, {nullptr, 0, 0},
+                   {coarse.data(), shape.polygon_step(), nullptr, 0});
   if (shape.joined()) coarse.back() = fine.back();
 }
 
