@@ -577,7 +577,8 @@ typedef struct ifsm_fit_budget {
  * curves        borrowed: all of one dimension
  * curve_count   1 …
  * options       borrowed; NULL for defaults
- * fit           [out] owned by the caller: never worse than its start at any budget asked for
+ * fit           [out] owned by the caller: at every budget asked for, its RMS is at most the start's (the maximum may
+ *               grow)
  *
  * Errors: NULL, RANGE, SHAPE, NOT_FINITE, INVALID_HANDLE, CANCELLED, NUMERICAL, LIMIT, OPTIONS, MEMORY. Deterministic.
  * The callbacks run on this thread. Source: paper 002, section 4; docs/fitting.md. Since 0.1. */

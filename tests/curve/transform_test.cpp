@@ -124,6 +124,18 @@ TEST(Transform, WritesNothingBeyondItsLine) {
   }
 }
 
+TEST(Transform, CoarsensToThePolygonsOfAnalysisBitForBit) {
+  Random random(5);
+  for (const Shape& shape : all_shapes(7, 4)) {
+    const FilterPtr filter = casteljau(shape);
+    const Level given = random_level(shape, random, 1);
+    Values analyzed(given.coarse.size()), coarse(given.coarse.size()), details(given.details.size());
+    analyze_level(*filter, given.fine, analyzed, details);
+    coarsen_level(shape, filter->inverse(), given.fine, coarse);
+    EXPECT_EQ(analyzed, coarse) << shape;
+  }
+}
+
 TEST(Transform, SynthesisUndoesAnalysis) {
   Random random(4);
   for (const Shape& shape : all_shapes(12)) {

@@ -49,6 +49,24 @@ TEST(SparseFit, MakesFewDetailsSayMore) {
   EXPECT_EQ(result.budgets[0][0].details, 32 - 5);
 }
 
+// R^-1 is bounded but its powers are not: polish alone has led to polygons of 1e15 diagonals, and models half a curve
+// off.
+TEST(SparseFit, KeepsCoarsePolygonsNearTheCurveAndModelsExact) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const Points points = loop(400, 2, seed);
+    FitOptions options = quick({8, 32});
+    options.polish_rounds = 8;
+    const FitResult result = fitted({{points, true}}, options);
+    const double start =
+        analyze(named_filter("casteljau", Topology::joined, 5, 2), points, true)->parts().largest_polygon;
+    const ModelParts& parts = result.models[0]->parts();
+    // Twice the start's, where that is the larger bound; 1e-9 for another order of the same sums.
+    EXPECT_LE(parts.largest_polygon, std::max(3 * parts.diagonal, 2 * start) * (1 + 1e-9)) << seed;
+    EXPECT_LE((samples(*result.models[0]).matrix() - points.matrix()).cwiseAbs().maxCoeff(), 1e-12 * parts.diagonal)
+        << seed;
+  }
+}
+
 TEST(SparseFit, TellsOfSketchesWhatTheyAre) {
   const Points points = loop(400, 3, 5);
   const FitResult result = fitted({{points, true}}, quick({20, 60}));
