@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "base/parallel.h"
 #include "curve/named.h"
 #include "curve/transform.h"
 
@@ -25,23 +26,54 @@ struct Lines {
   std::vector<std::vector<double>> line, details;
 };
 
-template <auto analyze, auto synthesize>
-void there_and_back(benchmark::State& state) {
+template <class Analyze, class Synthesize>
+void there_and_back(benchmark::State& state, const Analyze& analyze, const Synthesize& synthesize) {
   const FilterPtr filter = named_filter("casteljau", Topology::joined, 5, 2);
   Lines planes[2] = {Lines(filter->shape()), Lines(filter->shape())};
+  set_default_threads(static_cast<int>(state.range(0)));
   for (auto _ : state)
     for (Lines& plane : planes) {
-      for (std::size_t l = levels; l-- > 0;) analyze(*filter, plane.line[l + 1], plane.line[l], plane.details[l]);
-      for (std::size_t l = 0; l < levels; ++l) synthesize(*filter, plane.line[l], plane.details[l], plane.line[l + 1]);
+      analyze(*filter, plane);
+      synthesize(*filter, plane);
       benchmark::ClobberMemory();
     }
+  set_default_threads(0);
   state.SetItemsProcessed(state.iterations() * (1 << 20));
 }
 
-void fast(benchmark::State& state) { there_and_back<analyze_level, synthesize_level>(state); }
-void by_the_formula(benchmark::State& state) { there_and_back<plain::analyze_level, plain::synthesize_level>(state); }
-BENCHMARK(fast)->Unit(benchmark::kMillisecond);
-BENCHMARK(by_the_formula)->Unit(benchmark::kMillisecond);
+void fast(benchmark::State& state) {
+  there_and_back(
+      state,
+      [](const Filter& filter, Lines& plane) {
+        analyze(filter, plane.line.back(), plane.line.front(),
+                std::vector<Line>(plane.details.begin(), plane.details.end()));
+      },
+      [](const Filter& filter, Lines& plane) {
+        synthesize(filter, plane.line.front(), std::vector<ConstLine>(plane.details.begin(), plane.details.end()),
+                   plane.line.back());
+      });
+}
+BENCHMARK(fast)
+    ->ArgName("threads")
+    ->Arg(1)
+    ->Arg(2)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
+
+void by_the_formula(benchmark::State& state) {
+  there_and_back(
+      state,
+      [](const Filter& filter, Lines& plane) {
+        for (std::size_t l = levels; l-- > 0;)
+          plain::analyze_level(filter, plane.line[l + 1], plane.line[l], plane.details[l]);
+      },
+      [](const Filter& filter, Lines& plane) {
+        for (std::size_t l = 0; l < levels; ++l)
+          plain::synthesize_level(filter, plane.line[l], plane.details[l], plane.line[l + 1]);
+      });
+}
+BENCHMARK(by_the_formula)->ArgName("threads")->Arg(1)->Unit(benchmark::kMillisecond);
 
 void copy(benchmark::State& state) {
   std::vector<double> from(2 << 20, 1.0), to(2 << 20);

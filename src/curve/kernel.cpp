@@ -5,6 +5,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 #include <vector>
 
@@ -17,58 +18,80 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // A fixed virtual width would cost speed and buy nothing here: an output is never a sum over lanes.
-const hn::ScalableTag<double> lanes;
+const hn::CappedTag<double, 8> lanes;
+const hn::Half<decltype(lanes)> half_lanes;
 using Lanes = hn::Vec<decltype(lanes)>;
+using Layout = Product::Layout;
 
 Index width() { return static_cast<Index>(hn::Lanes(lanes)); }
 
-struct Product {
-  const double* matrix;  // rows of `pitch` doubles, padded with zeros
-  Index pitch;
-  Input first, second;
-};
+bool shares_one_vector(const Layout& p) { return p.second_count > 0 && p.second_column < width(); }
 
 // Any shape: columns [column, column + blocks · width) of one node, the sums in registers while the rows go by.
 template <int blocks>
-HWY_INLINE void columns(const Product& p, const double* first, const double* second, Index column, double* out) {
+HWY_INLINE void columns(const Layout& p, const Input& above, const Input& below, Index column, double* out) {
   Lanes sum[blocks];
-  for (int b = 0; b < blocks; ++b) sum[b] = hn::Zero(lanes);
   const double* row = p.matrix + column;
-  const auto add = [&](double value) {
+  const auto times_row = [&](double value, auto&& take) {
     const Lanes all = hn::Set(lanes, value);
-    for (int b = 0; b < blocks; ++b) sum[b] = hn::Add(sum[b], hn::Mul(all, hn::LoadU(lanes, row + b * width())));
+    for (int b = 0; b < blocks; ++b) take(sum[b], hn::Mul(all, hn::LoadU(lanes, row + b * width())));
     row += p.pitch;
   };
-  for (int r = 0; r < p.first.count; ++r) add(first[r]);
-  for (int r = 0; r < p.second.count; ++r) add(second[r]);
+  const auto set = [](Lanes& s, const Lanes product) { s = product; };
+  const auto add = [](Lanes& s, const Lanes product) { s = hn::Add(s, product); };
+  times_row(above.data[0], set);
+  for (int r = 1; r < above.count; ++r) times_row(above.data[r], add);
+  for (int r = 0; r < below.count; ++r) times_row(below.data[r], add);
   for (int b = 0; b < blocks; ++b) hn::StoreU(sum[b], lanes, out + b * width());
 }
 
-// A node writes whole vectors: up to one more than its columns fill.
 struct AnyShape {
-  explicit AnyShape(const Product& product) : p(product) {}
-  HWY_INLINE void operator()(const double* first, const double* second, double* out) const {
-    Index column = 0;
-    for (; column + 4 * width() <= p.pitch; column += 4 * width()) columns<4>(p, first, second, column, out + column);
-    for (; column + 2 * width() <= p.pitch; column += 2 * width()) columns<2>(p, first, second, column, out + column);
-    for (; column < p.pitch; column += width()) columns<1>(p, first, second, column, out + column);
+  AnyShape(const Layout& layout, const Input& above, const Input& below) : p(layout), a(above), b(below) {}
+
+  HWY_INLINE void operator()(const double* above, const double* below, double* first, double* second) const {
+    const Input here_a{above, a.count, a.step}, here_b{below, b.count, b.step};
+    if (shares_one_vector(p)) {
+      double both[8];
+      columns<1>(p, here_a, here_b, 0, both);
+      std::copy_n(both, p.second_column, first);
+      std::copy_n(both + p.second_column, p.second_column, second);
+      return;
+    }
+    some(here_a, here_b, 0, p.second_column, first);
+    some(here_a, here_b, p.second_column, p.pitch, second);
   }
-  const Product& p;
+  HWY_INLINE void some(const Input& above, const Input& below, Index from, Index to, double* out) const {
+    Index c = from;
+    for (; c + 4 * width() <= to; c += 4 * width()) columns<4>(p, above, below, c, out + (c - from));
+    for (; c + 2 * width() <= to; c += 2 * width()) columns<2>(p, above, below, c, out + (c - from));
+    for (; c < to; c += width()) columns<1>(p, above, below, c, out + (c - from));
+  }
+  const Layout& p;
+  const Input &a, &b;
 };
 
-// A shape that the compiler knows: the matrix stays in registers, F rows of the first input and S of the second.
-template <int blocks, int F, int S>
+// A shape that the compiler knows: the matrix stays in registers, A rows for the first input and B for the second. Of
+// the vectors, `firsts` go to the first output, the others to the second; with 0 of them, the halves of one.
+template <int blocks, int firsts, int A, int B>
 struct KnownShape {
-  explicit KnownShape(const Product& p) {
-    for (int r = 0; r < F + S; ++r)
+  explicit KnownShape(const Layout& p) {
+    for (int r = 0; r < A + B; ++r)
       for (int b = 0; b < blocks; ++b) row[r][b] = hn::LoadU(lanes, p.matrix + r * p.pitch + b * width());
   }
-  HWY_INLINE void operator()(const double* first, const double* second, double* out) const {
+  HWY_INLINE void operator()(const double* above, const double* below, double* first, double* second) const {
     Lanes sum[blocks];
-    for (int b = 0; b < blocks; ++b) sum[b] = hn::Zero(lanes);
-    add<0>(first, sum, std::make_integer_sequence<int, F>{});
-    add<F>(second, sum, std::make_integer_sequence<int, S>{});
-    for (int b = 0; b < blocks; ++b) hn::StoreU(sum[b], lanes, out + b * width());
+    const Lanes all = hn::Set(lanes, above[0]);
+    for (int b = 0; b < blocks; ++b) sum[b] = hn::Mul(all, row[0][b]);
+    add<1>(above + 1, sum, std::make_integer_sequence<int, A - 1>{});
+    add<A>(below, sum, std::make_integer_sequence<int, B>{});
+#if HWY_TARGET != HWY_SCALAR  // whose vectors have no halves
+    if constexpr (firsts == 0) {
+      hn::StoreU(hn::LowerHalf(sum[0]), half_lanes, first);
+      hn::StoreU(hn::UpperHalf(half_lanes, sum[0]), half_lanes, second);
+    }
+#endif
+    for (int b = 0; b < firsts; ++b) hn::StoreU(sum[b], lanes, first + b * width());
+    for (int b = firsts; firsts > 0 && b < blocks; ++b) hn::StoreU(sum[b], lanes, second + (b - firsts) * width());
   }
   template <int from, int... r>
   HWY_INLINE void add(const double* values, Lanes* sum, std::integer_sequence<int, r...>) const {
@@ -77,59 +100,74 @@ struct KnownShape {
     };
     (one(hn::Set(lanes, values[r]), row[from + r]), ...);
   }
-  Lanes row[F + S][blocks];
+  Lanes row[A + B][blocks];
 };
 
-// What a node writes past its own values the next one overwrites; the last ones, and outputs in two parts, go through
-// a buffer. `half`, when not 0, is the length of both parts.
-template <int half, class Node>
-HWY_INLINE void all_nodes(const Node node, const Product& p, Index nodes, const Output& output) {
-  const Index count = output.first_count + output.second_count;
-  const Index straight = output.second_count == 0 ? std::max<Index>(0, nodes - (p.pitch - 1) / count - 1) : 0;
+// Nodes whose vectors end before the output does: what each writes past its own values, the next ones overwrite.
+Index straight_nodes(Index nodes, Index count, Index written) {
+  if (count == 0) return nodes;
+  return nodes * count < written ? 0 : (nodes * count - written) / count + 1;
+}
+
+// The last nodes, whose vectors pass the end, go through a buffer.
+template <class Node>
+HWY_INLINE void all_nodes(const Node node, const Layout& p, Index nodes, Index straight, const Input& above,
+                          const Input& below, double* first, double* second) {
   for (Index q = 0; q < straight; ++q)
-    node(p.first.data + q * p.first.step, p.second.data + q * p.second.step, output.first + q * count);
-  std::vector<double> buffer(static_cast<std::size_t>(p.pitch));
-  double* const copy = buffer.data();
+    node(above.data + q * above.step, below.data + q * below.step, first + q * p.first_count,
+         second + q * p.second_count);
+  constexpr Index most = 2 * 136;  // columns of the widest R, 8 maps of 16 points, and a vector
+  double buffer[most];
+  double* const second_buffer = buffer + most / 2;
   for (Index q = straight; q < nodes; ++q) {
-    node(p.first.data + q * p.first.step, p.second.data + q * p.second.step, copy);
-    const int first_count = half > 0 ? half : output.first_count, second_count = half > 0 ? half : output.second_count;
-    std::copy_n(copy, first_count, output.first + q * first_count);
-    std::copy_n(copy + first_count, second_count, output.second + q * second_count);
+    node(above.data + q * above.step, below.data + q * below.step, buffer, second_buffer);
+    std::copy_n(buffer, p.first_count, first + q * p.first_count);
+    std::copy_n(second_buffer, p.second_count, second + q * p.second_count);
   }
 }
 
-// Joined with two maps and n = F control points, when reading a polygon and n - 1 details; n = (F + 1) / 2 when reading
+// Joined with two maps and n = A control points, when reading a polygon and n - 1 details; n = (A + 1) / 2 when reading
 // 2n - 1 places.
-template <int F, int S>
-bool known(const Product& p, Index nodes, const Output& output) {
-  if (p.first.count != F || p.second.count != S || p.pitch > 2 * width()) return false;
-  constexpr int half = S == 0 ? (F - 1) / 2 : 0;
-  const bool halves = output.first_count == half && output.second_count == half;
-  const auto run = [&](const auto& node) {
-    if (halves)
-      all_nodes<half>(node, p, nodes, output);
-    else
-      all_nodes<0>(node, p, nodes, output);
-  };
-  if (p.pitch == width())
-    run(KnownShape<1, F, S>(p));
+template <int A, int B>
+bool known(const Layout& p, const Input& above, const Input& below, const auto& run) {
+  if (above.count != A || below.count != B) return false;
+  const Index firsts = shares_one_vector(p) ? 0 : p.second_column / width(), blocks = p.pitch / width();
+  if (blocks == 1 && firsts == 0)
+    run(KnownShape<1, 0, A, B>(p));
+  else if (blocks == 1)
+    run(KnownShape<1, 1, A, B>(p));
+  else if (blocks == 2 && firsts == 1)
+    run(KnownShape<2, 1, A, B>(p));
+  else if (blocks == 2)
+    run(KnownShape<2, 2, A, B>(p));
   else
-    run(KnownShape<2, F, S>(p));
+    return false;
   return true;
 }
 
-void multiply(const RowMatrix& matrix, const std::vector<int>& chosen, Index nodes, const Input& first,
-              const Input& second, const Output& output) {
-  const Index count = static_cast<Index>(chosen.size()), pitch = (count + width() - 1) / width() * width();
-  std::vector<double> padded(static_cast<std::size_t>(matrix.rows() * pitch));
-  for (Index r = 0; r < matrix.rows(); ++r)
-    for (Index c = 0; c < count; ++c)
-      padded[static_cast<std::size_t>(r * pitch + c)] = matrix(r, chosen[static_cast<std::size_t>(c)]);
-  const Product p{padded.data(), pitch, first, second};
-  const bool done = known<3, 2>(p, nodes, output) || known<4, 3>(p, nodes, output) || known<5, 4>(p, nodes, output) ||
-                    known<6, 5>(p, nodes, output) || known<5, 0>(p, nodes, output) || known<7, 0>(p, nodes, output) ||
-                    known<9, 0>(p, nodes, output) || known<11, 0>(p, nodes, output);
-  if (!done) all_nodes<0>(AnyShape(p), p, nodes, output);
+void multiply(const Layout& p, Index nodes, const Input& above, const Input& below, double* first, double* second) {
+  const bool shared = shares_one_vector(p);
+  const Index first_written = p.second_column, second_written = shared ? width() / 2 : p.pitch - p.second_column;
+  const Index straight = std::min(straight_nodes(nodes, p.first_count, first_written),
+                                  straight_nodes(nodes, p.second_count, second_written));
+  const auto run = [&](const auto& node) { all_nodes(node, p, nodes, straight, above, below, first, second); };
+  if (known<3, 2>(p, above, below, run) || known<4, 3>(p, above, below, run) || known<5, 4>(p, above, below, run) ||
+      known<6, 5>(p, above, below, run) || known<5, 0>(p, above, below, run) || known<7, 0>(p, above, below, run) ||
+      known<9, 0>(p, above, below, run) || known<11, 0>(p, above, below, run))
+    return;
+  run(AnyShape(p, above, below));
+}
+
+// As integers, magnitudes are in the order of the numbers, with infinity and then NaN above them.
+double largest(const double* values, Index count) {
+  const hn::RebindToSigned<decltype(lanes)> integers;
+  auto most = hn::Zero(integers);
+  Index i = 0;
+  for (; i + width() <= count; i += width())
+    most = hn::Max(most, hn::BitCast(integers, hn::Abs(hn::LoadU(lanes, values + i))));
+  std::int64_t result = hn::GetLane(hn::MaxOfLanes(integers, most));
+  for (; i < count; ++i) result = std::max(result, std::bit_cast<std::int64_t>(values[i]) & INT64_MAX);
+  return std::bit_cast<double>(result);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -139,11 +177,35 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace ifsm::core::kernel {
 
+HWY_EXPORT(width);
 HWY_EXPORT(multiply);
+HWY_EXPORT(largest);
 
-void multiply(const RowMatrix& matrix, const std::vector<int>& chosen, Index nodes, const Input& first,
-              const Input& second, const Output& output) {
-  HWY_DYNAMIC_DISPATCH(multiply)(matrix, chosen, nodes, first, second, output);
+Product::Product(const RowMatrix& matrix, const std::vector<int>& first, const std::vector<int>& second) {
+  const Index vector = HWY_DYNAMIC_DISPATCH(width)();
+  const auto padded = [&](std::size_t count) { return (static_cast<Index>(count) + vector - 1) / vector * vector; };
+  const bool shared = !second.empty() && std::max(first.size(), second.size()) <= static_cast<std::size_t>(vector / 2);
+  layout_.second_column = shared ? vector / 2 : padded(first.size());
+  layout_.pitch = shared ? vector : layout_.second_column + padded(second.size());
+  layout_.first_count = static_cast<Index>(first.size());
+  layout_.second_count = static_cast<Index>(second.size());
+  padded_.resize(static_cast<std::size_t>(matrix.rows() * layout_.pitch));
+  for (Index r = 0; r < matrix.rows(); ++r) {
+    double* const row = padded_.data() + r * layout_.pitch;
+    for (std::size_t c = 0; c < first.size(); ++c) row[c] = matrix(r, first[c]);
+    for (std::size_t c = 0; c < second.size(); ++c)
+      row[layout_.second_column + static_cast<Index>(c)] = matrix(r, second[c]);
+  }
+}
+
+void Product::operator()(Index nodes, const Input& above, const Input& below, double* first, double* second) const {
+  Layout layout = layout_;
+  layout.matrix = padded_.data();
+  HWY_DYNAMIC_DISPATCH(multiply)(layout, nodes, above, below, first, second);
+}
+
+double largest(std::span<const double> values) {
+  return HWY_DYNAMIC_DISPATCH(largest)(values.data(), static_cast<Index>(values.size()));
 }
 
 }  // namespace ifsm::core::kernel

@@ -56,24 +56,30 @@ void require_samples(const Points& samples, bool closed) {
   (void)closed;
 }
 
-// Level by level up: details of every level, and what is left at the top.
-void take_apart(ModelParts& parts, Points finest, int levels) {
+std::vector<ConstLine> lines_of(const std::vector<PointsPtr>& details, Index axis, int levels) {
+  std::vector<ConstLine> lines;
+  for (int level = 0; level < levels; ++level) lines.push_back(details[static_cast<std::size_t>(level)]->plane(axis));
+  return lines;
+}
+
+// Details of every level, and what is left at the top.
+void take_apart(ModelParts& parts, const Points& finest, int levels) {
   const Shape& shape = parts.filter->shape();
   const Index dimension = finest.dimension();
-  parts.details.resize(static_cast<std::size_t>(levels));
-  Points fine = std::move(finest);
-  parts.largest_polygon = largest_coordinate(fine);
-  for (int level = levels - 1; level >= 0; --level) {
-    Points coarse(dimension, shape.line_length(level));
-    auto details = std::make_shared<Points>(dimension, shape.detail_count(level));
-    for (Index axis = 0; axis < dimension; ++axis)
-      analyze_level(*parts.filter, fine.plane(axis), coarse.plane(axis), details->plane(axis));
-    parts.largest_polygon = std::max(parts.largest_polygon, largest_coordinate(coarse));
-    require_in_range_of_doubles(coarse.matrix().sum() + details->matrix().sum());
-    parts.details[static_cast<std::size_t>(level)] = std::move(details);
-    fine = std::move(coarse);
+  std::vector<std::shared_ptr<Points>> details;
+  for (int level = 0; level < levels; ++level)
+    details.push_back(std::make_shared<Points>(dimension, shape.detail_count(level)));
+  parts.polygon = Points(dimension, shape.line_length(0));
+  parts.largest_polygon = largest_coordinate(finest);
+  for (Index axis = 0; axis < dimension; ++axis) {
+    std::vector<Line> lines;
+    for (const auto& level : details) lines.push_back(level->plane(axis));
+    const Extent extent = analyze(*parts.filter, finest.plane(axis), parts.polygon.plane(axis), lines);
+    require_in_range_of_doubles(extent.polygons);
+    require_in_range_of_doubles(extent.details);
+    parts.largest_polygon = std::max(parts.largest_polygon, extent.polygons);
   }
-  parts.polygon = std::move(fine);
+  parts.details.assign(details.begin(), details.end());
 }
 
 // What synthesis misses of the finest line, taken apart and added: takes back what analysis rounded away where large
@@ -87,7 +93,7 @@ void correct(ModelParts& parts, const Points& finest, int levels) {
   left.matrix() -= line(parts, levels).matrix();
   ModelParts correction;
   correction.filter = parts.filter;
-  take_apart(correction, std::move(left), levels);
+  take_apart(correction, left, levels);
   parts.polygon.matrix() += correction.polygon.matrix();
   for (std::size_t level = 0; level < parts.details.size(); ++level) {
     auto sum = std::make_shared<Points>(*parts.details[level]);
@@ -158,16 +164,10 @@ ModelPtr from_polygon(const FilterPtr& filter, const Points& polygon, bool close
 }
 
 Points line(const ModelParts& parts, int level) {
-  const Shape& shape = parts.filter->shape();
-  Points coarse = parts.polygon;
-  for (int l = 0; l < level; ++l) {
-    Points fine(coarse.dimension(), shape.line_length(l + 1));
-    for (Index axis = 0; axis < coarse.dimension(); ++axis)
-      synthesize_level(*parts.filter, coarse.plane(axis), parts.details[static_cast<std::size_t>(l)]->plane(axis),
-                       fine.plane(axis));
-    coarse = std::move(fine);
-  }
-  return coarse;
+  Points fine(parts.polygon.dimension(), parts.filter->shape().line_length(level));
+  for (Index axis = 0; axis < fine.dimension(); ++axis)
+    synthesize(*parts.filter, parts.polygon.plane(axis), lines_of(parts.details, axis, level), fine.plane(axis));
+  return fine;
 }
 
 Points line(const Model& model, int level) { return line(model.parts(), level); }

@@ -1,4 +1,4 @@
-// Synthesis and analysis, one level and one coordinate at a time (paper 002, eqs. (6) and (7)).
+// Synthesis and analysis of one coordinate (paper 002, eqs. (6) and (7)).
 #pragma once
 
 #include <span>
@@ -16,6 +16,15 @@ void synthesize_level(const Filter& filter, ConstLine coarse, ConstLine details,
 
 // (P_θ | δP_θ) = (P_θ0 | … | P_θ,N-1) R^-1: the inverse.
 void analyze_level(const Filter& filter, ConstLine fine, Line coarse, Line details);
+
+// All levels at once, coarsest details first, with the bits of one level after the other. A subtree whose finest line
+// fits into the cache is finished before the next one is begun, and subtrees share the threads.
+void synthesize(const Filter& filter, ConstLine polygon, std::span<const ConstLine> details, Line fine);
+// Returns the largest coordinate of all polygons and details; not finite when one of them is not.
+struct Extent {
+  double polygons, details;
+};
+Extent analyze(const Filter& filter, ConstLine fine, Line polygon, std::span<const Line> details);
 
 // The polygons alone, by any R^-1: for judging filters before they are made.
 void coarsen_level(const Shape& shape, const RowMatrix& inverse, ConstLine fine, Line coarse);

@@ -34,6 +34,12 @@ double chunked_sum(int threads) {
   return total;
 }
 
+TEST(ParallelFor, PrintsNothingWhenMoreThreadsAreAskedForThanThereAre) {
+  ::testing::internal::CaptureStderr();
+  parallel_for(64, 1000, [](std::int64_t) {});
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(ParallelFor, GivesTheSameBitsWithAnyNumberOfThreads) {
   const double expected = chunked_sum(1);
   for (const int threads : thread_counts) {

@@ -3,7 +3,8 @@
 #include <hwy/targets.h>
 
 #include <bit>
-
+#include <cmath>
+#include <limits>
 #include "support.h"
 
 using namespace ifsm::core;
@@ -134,6 +135,93 @@ TEST(Transform, CoarsensToThePolygonsOfAnalysisBitForBit) {
     coarsen_level(shape, filter->inverse(), given.fine, coarse);
     EXPECT_EQ(analyzed, coarse) << shape;
   }
+}
+
+struct Tree {
+  Values polygon;
+  std::vector<Values> details;
+  Values fine;
+
+  Tree(const Shape& shape, int levels) : polygon(static_cast<std::size_t>(shape.control_points())) {
+    for (int l = 0; l < levels; ++l) details.emplace_back(static_cast<std::size_t>(shape.detail_count(l)));
+    fine.resize(static_cast<std::size_t>(shape.line_length(levels)));
+  }
+  std::vector<Line> lines() { return {details.begin(), details.end()}; }
+  std::vector<ConstLine> const_lines() const { return {details.begin(), details.end()}; }
+  bool operator==(const Tree&) const = default;
+};
+
+double largest_of(const Values& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+// Taken apart one level after the other, and put together again.
+struct LevelByLevel {
+  Tree tree;
+  Extent extent{0, 0};
+
+  LevelByLevel(const Filter& filter, const Values& fine, int levels) : tree(filter.shape(), levels) {
+    Values line = fine;
+    for (int l = levels; l-- > 0;) {
+      Values coarse(static_cast<std::size_t>(filter.shape().line_length(l)));
+      Values& details = tree.details[static_cast<std::size_t>(l)];
+      analyze_level(filter, line, coarse, details);
+      extent = {std::max(extent.polygons, largest_of(coarse)), std::max(extent.details, largest_of(details))};
+      line = coarse;
+    }
+    tree.polygon = line;
+    for (int l = 0; l < levels; ++l) {
+      Values next(static_cast<std::size_t>(filter.shape().line_length(l + 1)));
+      synthesize_level(filter, line, tree.details[static_cast<std::size_t>(l)], next);
+      line = next;
+    }
+    tree.fine = line;
+  }
+};
+
+// Enough levels that the tree has several blocks, whose roots are parted again.
+int several_blocks(const Shape& shape) {
+  int levels = 1;
+  while (shape.line_length(levels) < 40'000) ++levels;
+  return levels;
+}
+
+TEST(Transform, OfAllLevelsHasTheBitsOfOneLevelAfterTheOther) {
+  Random random(6);
+  for (const Shape& shape : all_shapes(9, 4)) {
+    const FilterPtr filter = random_filter(shape, random);
+    for (const int levels : {0, 1, 2, several_blocks(shape)}) {
+      const Values fine = random_values(random, shape.line_length(levels));
+      const LevelByLevel expected(*filter, fine, levels);
+      Tree tree(shape, levels);
+      const Extent extent = analyze(*filter, fine, tree.polygon, tree.lines());
+      synthesize(*filter, tree.polygon, tree.const_lines(), tree.fine);
+      ASSERT_EQ(tree, expected.tree) << shape << " levels " << levels;
+      ASSERT_EQ(extent.details, expected.extent.details) << shape << " levels " << levels;
+      if (levels > 0) {
+        ASSERT_EQ(extent.polygons, std::max(expected.extent.polygons, largest_of(tree.polygon))) << shape;
+      }
+    }
+  }
+}
+
+TEST(Transform, TellsThatANumberLeftTheRangeOfDoublesWhereverItDid) {
+  Random random(8);
+  const Shape shape(Topology::joined, 5, 2);
+  const FilterPtr filter = casteljau(shape);
+  const int levels = several_blocks(shape);
+  for (const double bad : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    for (const std::size_t at : {std::size_t{1}, std::size_t{4003}, std::size_t{40'001}}) {
+      Values fine = random_values(random, shape.line_length(levels));
+      ASSERT_LT(at, fine.size());
+      fine[at] = bad;
+      Tree tree(shape, levels);
+      const Extent extent = analyze(*filter, fine, tree.polygon, tree.lines());
+      EXPECT_FALSE(std::isfinite(extent.polygons)) << bad << " at " << at;
+      EXPECT_FALSE(std::isfinite(extent.details)) << bad << " at " << at;
+    }
 }
 
 TEST(Transform, SynthesisUndoesAnalysis) {
