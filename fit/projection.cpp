@@ -1,8 +1,10 @@
 #include "fit/projection.h"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
+#include "base/parallel.h"
 #include "linalg/spectrum.h"
 
 namespace ifsm::core {
@@ -142,17 +144,35 @@ class Walk {
 }  // namespace
 
 Projection::Projection(const Shape& shape, std::vector<ProjectedSketch> sketches, const Watch& watch)
-    : shape_(shape), sketches_(std::move(sketches)), watch_(watch), entries_(free_entries(shape)) {}
+    : shape_(shape), sketches_(std::move(sketches)), watch_(watch), entries_(free_entries(shape)) {
+  for (const ProjectedSketch& sketch : sketches_) {
+    if (groups_.empty() || groups_.back().front()->solver != sketch.solver) groups_.emplace_back();
+    groups_.back().push_back(&sketch);
+  }
+}
+
+template <class Body>
+void Projection::each_group(const Body& body) const {
+  parallel_for(static_cast<Index>(groups_.size()), 0, [&](Index g) {
+    const auto at = static_cast<std::size_t>(g);
+    for (const ProjectedSketch* sketch : groups_[at]) body(at, *sketch);
+  });
+}
 
 double Projection::value(const RowMatrix& matrix) {
-  double sum = 0;
-  for (const ProjectedSketch& sketch : sketches_)
-    sum += sketch.weight * solved(*sketch.solver, matrix, sketch.kept, *sketch.data, watch_).squared_error;
-  return sum;
+  std::vector<double> values(groups_.size(), 0.0);
+  each_group([&](std::size_t group, const ProjectedSketch& sketch) {
+    values[group] += sketch.weight * solved(*sketch.solver, matrix, sketch.kept, *sketch.data, watch_).squared_error;
+  });
+  return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 void Projection::gather(const RowMatrix& matrix, Normal& normal) {
-  for (const ProjectedSketch& sketch : sketches_) Walk(shape_, entries_, sketch, matrix, watch_).gather(normal);
+  std::vector<Normal> each(groups_.size(), Normal(static_cast<int>(entries_.size())));
+  each_group([&](std::size_t group, const ProjectedSketch& sketch) {
+    Walk(shape_, entries_, sketch, matrix, watch_).gather(each[group]);
+  });
+  for (Normal& one : each) normal += one;
 }
 
 }  // namespace ifsm::core

@@ -23,7 +23,10 @@ struct ProjectedSketch {
 
 class Projection : public Objective {
  public:
+  // Sketches that share a solver stand side by side; those of different solvers share the threads.
   Projection(const Shape& shape, std::vector<ProjectedSketch> sketches, const Watch& watch);
+  Projection(const Projection&) = delete;
+  Projection& operator=(const Projection&) = delete;
 
   double value(const RowMatrix& matrix) override;
   // Kaufman's Jacobian, as JᵀJ and Jᵀr: the tangent of the synthesis at fixed values, less what solving again takes
@@ -31,8 +34,12 @@ class Projection : public Objective {
   void gather(const RowMatrix& matrix, Normal& normal) override;
 
  private:
+  template <class Body>
+  void each_group(const Body& body) const;
+
   Shape shape_;
   std::vector<ProjectedSketch> sketches_;
+  std::vector<std::vector<const ProjectedSketch*>> groups_;
   const Watch& watch_;
   std::vector<FreeEntry> entries_;
 };

@@ -4,92 +4,40 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "curve/named.h"
-#include "curve/resolve.h"
-#include "curve/transform.h"
-#include "fit/minimise.h"
+#include "fit/checks.h"
 #include "fit/parameters.h"
-#include "fit/projection.h"
-#include "fit/sparsity.h"
+#include "fit/sketchbook.h"
 
 namespace ifsm::core {
 namespace {
 
-constexpr int most_parameters = 1024;  // beyond, one linear solve takes longer than a cancel may
 constexpr Index default_budget = 128;
 constexpr int pursuit_trials = 12;  // while R still moves
 constexpr int last_pursuit_trials = 30;
 constexpr int polish_iterations = 10;  // the choice changes after them
 constexpr double sparse_tolerance = 1e-6;
 constexpr double polish_tolerance = 1e-4;
-constexpr double most_condition = 1e2;  // of R: beyond, details grow and cancel, and rounding passes 1e-12
-constexpr double most_growth = 3;       // coarse polygons in diagonals: beyond, they are no handles, and rounding shows
-constexpr double scale_of_error = 0.5;  // ε over the root of squared error per kept value
-
-// A curve with its tree, and what is solved on it again and again.
-struct Job {
-  ModelPtr start;  // the exact model under the starting filter
-  Points line;     // its finest line, from the centre: the same under every filter
-  Lanes data;
-  TreeSolver solver;
-
-  explicit Job(ModelPtr model)
-      : start(std::move(model)),
-        line(core::line(*start, start->levels())),
-        data(lanes_of(line)),
-        solver(start->shape(), start->levels(), start->closed(), sample_weights(*start)) {}
-};
-
-double largest_coordinate(std::span<const double> line) {
-  double largest = 0;
-  for (const double value : line) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
-// Of all levels, from the centre; infinite when a coordinate is not finite.
-double largest_polygon(const Shape& shape, const RowMatrix& inverse, const Points& line, int levels) {
-  double largest = 0;
-  for (Index axis = 0; axis < line.dimension(); ++axis) {
-    std::vector<double> fine(line.plane(axis).begin(), line.plane(axis).end());
-    for (int level = levels - 1; level >= 0; --level) {
-      std::vector<double> coarse(static_cast<std::size_t>(shape.line_length(level)));
-      coarsen_level(shape, inverse, fine, coarse);
-      largest = std::max(largest, largest_coordinate(coarse));
-      fine.swap(coarse);
-    }
-  }
-  return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
-}
-
-// The state of a fit: R, and for every curve and budget the best choice known under it.
-struct State {
-  RowMatrix matrix;
-  std::vector<std::vector<Choice>> choices;  // [curve][budget]
-};
 
 class SparseFit {
  public:
   SparseFit(const std::vector<FitCurve>& curves, FilterPtr start, std::vector<Index> budgets, const FitOptions& options,
             Watch& watch)
       : curves_(curves),
-        start_(std::move(start)),
-        shape_(start_->shape()),
         budgets_(std::move(budgets)),
         options_(options),
-        watch_(watch) {
-    for (const FitCurve& curve : curves_) jobs_.emplace_back(analyze(start_, curve.samples, curve.closed));
-  }
+        watch_(watch),
+        book_(curves, std::move(start), std::vector(curves.size(), budgets_), Limits{}, watch) {}
 
   FitResult run() {
-    const State start = start_state();
-    State best = start;
-    if (free_count(shape_) > 0) {
+    const Sketches start = book_.best(book_.start()->matrix(), last_pursuit_trials);
+    Sketches best = start;
+    if (free_count(book_.shape()) > 0) {
       // Two ways down: sparsity gathers the curve into few details and leads far from the start where the budget is
       // small; where it is large, the start is the better one to polish.
-      State sparse = made_sparse(start, watch_.part(0.0, options_.polish_rounds > 0 ? 0.4 : 0.95));
+      Sketches sparse = made_sparse(start, watch_.part(0.0, options_.polish_rounds > 0 ? 0.4 : 0.95));
       consider(sparse, start, best);
       consider(polished(std::move(sparse), watch_.part(0.4, 0.7)), start, best);
       consider(polished(start, watch_.part(0.7, 0.95)), start, best);
@@ -98,125 +46,40 @@ class SparseFit {
   }
 
  private:
-  Index details(Index budget) const { return budget - shape_.control_points(); }
-
-  // Coarse polygons that leave the curve's neighbourhood grow from level to level: R^-1 is bounded, its powers are not.
-  bool stays_near(const RowMatrix& matrix) const {
-    const RowMatrix inverse = inverse_of(shape_, matrix);
-    return std::ranges::all_of(jobs_, [&](const Job& job) {
-      return largest_polygon(shape_, inverse, job.line, job.start->levels()) <=
-             std::max(most_growth * job.start->parts().diagonal, 2 * job.start->parts().largest_polygon);
-    });
-  }
-
-  MinimiseOptions minimise_options(int iterations, double tolerance, const char* stage) const {
-    return {iterations, tolerance, std::max(most_condition, 2 * start_->condition()), stage,
-            [this](const RowMatrix& matrix) { return stays_near(matrix); }};
-  }
-
-  // Sums of logarithms of squared errors: budgets and curves of all sizes count alike.
-  static double judged(const State& state) {
-    double sum = 0;
-    for (const auto& row : state.choices)
-      for (const Choice& choice : row) sum += std::log(std::max(choice.squared_error, 1e-300));
-    return sum;
-  }
-
-  void consider(const State& candidate, const State& start, State& best) const {
-    for (std::size_t c = 0; c < jobs_.size(); ++c)
+  void consider(const Sketches& candidate, const Sketches& start, Sketches& best) const {
+    for (std::size_t c = 0; c < curves_.size(); ++c)
       for (std::size_t b = 0; b < budgets_.size(); ++b)
         if (candidate.choices[c][b].squared_error > start.choices[c][b].squared_error) return;
-    if (judged(candidate) < judged(best)) best = candidate;
+    if (Sketchbook::judged(candidate) < Sketchbook::judged(best)) best = candidate;
   }
 
-  Choice most_significant_choice(Job& job, const FilterPtr& filter, Index budget) {
-    const ModelPtr model = with_samples(job, filter);
-    return solved(job.solver, filter->matrix(), most_significant(*model, details(budget)), job.data, watch_);
-  }
-
-  ModelPtr with_samples(const Job& job, const FilterPtr& filter) const {
-    const auto c = static_cast<std::size_t>(&job - jobs_.data());
-    return analyze(filter, curves_[c].samples, curves_[c].closed);
-  }
-
-  State chosen(const RowMatrix& matrix) {
-    const auto filter = std::make_shared<Filter>(shape_, matrix);
-    State state{matrix, {}};
-    for (Job& job : jobs_) {
-      auto& row = state.choices.emplace_back();
-      for (const Index budget : budgets_) row.push_back(most_significant_choice(job, filter, budget));
-    }
-    return state;
-  }
-
-  void pursue(State& state, int trials) {
-    for (std::size_t c = 0; c < jobs_.size(); ++c)
-      for (Choice& choice : state.choices[c])
-        choice = pursued(jobs_[c].solver, state.matrix, std::move(choice), jobs_[c].data, trials, watch_);
-  }
-
-  State start_state() {
-    State state = chosen(start_->matrix());
-    for (std::size_t c = 0; c < jobs_.size(); ++c)
-      for (Choice& choice : state.choices[c])
-        choice = best_choice(jobs_[c].solver, state.matrix, choice.kept, jobs_[c].data, last_pursuit_trials, watch_);
-    return state;
-  }
-
-  // ε follows the error: half of it, for each value that is kept.
-  std::vector<SparseCurve> scaled(const State& state) const {
-    std::vector<SparseCurve> curves;
-    for (std::size_t c = 0; c < jobs_.size(); ++c) {
-      const Job& job = jobs_[c];
-      const Placement& placement = job.start->placement();
-      const double density = static_cast<double>(placement.places()) / static_cast<double>(placement.samples());
-      SparseCurve curve{&job.line, job.start->levels(), {}};
-      for (std::size_t b = 0; b < budgets_.size(); ++b) {
-        const double error = state.choices[c][b].squared_error * density / static_cast<double>(budgets_[b]);
-        const double least = 1e-12 * job.start->parts().diagonal;  // a curve without error has no scale of its own
-        curve.scales.push_back(std::max(scale_of_error * std::sqrt(error), std::max(least, 1e-150)));
-      }
-      curves.push_back(std::move(curve));
-    }
-    return curves;
-  }
-
-  State made_sparse(const State& state, Watch watch) {
+  Sketches made_sparse(const Sketches& state, Watch watch) {
     // The scale of the first round is that of the plain choice: a bettered one would set it too low.
-    State plain = chosen(state.matrix);
-    for (int round = 0; round < options_.sparse_rounds; ++round) {
-      Sparsity objective(shape_, scaled(plain), watch_);
+    Sketches plain = book_.most_significant(state.matrix);
+    const int rounds = options_.sparse_rounds;
+    for (int round = 0; round < rounds; ++round) {
       const Minimised found =
-          minimise(shape_, objective, plain.matrix, minimise_options(options_.iterations, sparse_tolerance, "sparse"),
-                   watch.part(static_cast<double>(round) / options_.sparse_rounds,
-                              static_cast<double>(round + 1) / options_.sparse_rounds));
+          book_.made_sparse(plain, book_.options(options_.iterations, sparse_tolerance, "sparse"),
+                            watch.part(static_cast<double>(round) / rounds, static_cast<double>(round + 1) / rounds));
       count(found);
       start_cost_ = found.start_value;
       final_cost_ = found.value;
-      plain = chosen(found.matrix);
+      plain = book_.most_significant(found.matrix);
     }
-    pursue(plain, pursuit_trials);
+    book_.pursue(plain, pursuit_trials);
     return plain;
   }
 
-  State polished(State state, Watch watch) {
+  Sketches polished(Sketches state, Watch watch) {
     const int rounds = options_.polish_rounds;
     for (int round = 0; round < rounds; ++round) {
-      std::vector<ProjectedSketch> sketches;
-      for (std::size_t c = 0; c < jobs_.size(); ++c)
-        for (const Choice& choice : state.choices[c])
-          if (choice.squared_error > 0)
-            sketches.push_back(
-                {&jobs_[c].solver, &jobs_[c].data, jobs_[c].start->levels(), choice.kept, 1 / choice.squared_error});
-      Projection objective(shape_, std::move(sketches), watch_);
-      const Minimised found =
-          minimise(shape_, objective, state.matrix,
-                   minimise_options(std::min(options_.iterations, polish_iterations), polish_tolerance, "polish"),
-                   watch.part(static_cast<double>(round) / rounds, static_cast<double>(round + 1) / rounds));
+      const Minimised found = book_.polished(
+          state, book_.options(std::min(options_.iterations, polish_iterations), polish_tolerance, "polish"),
+          watch.part(static_cast<double>(round) / rounds, static_cast<double>(round + 1) / rounds));
       count(found);
-      State next{found.matrix, state.choices};
-      pursue(next, round + 1 == rounds ? last_pursuit_trials : pursuit_trials);
-      const double fall = judged(state) - judged(next);
+      Sketches next{found.matrix, state.choices};
+      book_.pursue(next, round + 1 == rounds ? last_pursuit_trials : pursuit_trials);
+      const double fall = Sketchbook::judged(state) - Sketchbook::judged(next);
       if (!(fall > 0)) break;
       state = std::move(next);
       if (fall < 1e-3) break;
@@ -230,8 +93,7 @@ class SparseFit {
   }
 
   Sketch sketch(std::size_t curve, const FilterPtr& filter, const Choice& choice) {
-    const Job& job = jobs_[curve];
-    ModelParts parts = job.start->parts();
+    ModelParts parts = book_.start_model(curve)->parts();
     parts.filter = filter;
     parts.polygon.matrix() = choice.solution.control;
     close_ends(parts);
@@ -248,90 +110,43 @@ class SparseFit {
     return {std::move(model), std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())};
   }
 
-  FitResult result(const State& start, const State& best) {
+  FitResult result(const Sketches& start, const Sketches& best) {
     FitResult result;
     const bool unchanged = best.matrix == start.matrix;
-    result.filter = unchanged ? start_ : std::make_shared<Filter>(shape_, best.matrix);
-    for (std::size_t c = 0; c < jobs_.size(); ++c) {
-      result.models.push_back(with_samples(jobs_[c], result.filter));
+    result.filter = unchanged ? book_.start() : std::make_shared<Filter>(book_.shape(), best.matrix);
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      result.models.push_back(book_.model(c, result.filter));
       auto& rows = result.budgets.emplace_back();
       for (std::size_t b = 0; b < budgets_.size(); ++b)
-        rows.push_back({budgets_[b], details(budgets_[b]), sketch(c, start_, start.choices[c][b]),
+        rows.push_back({budgets_[b], book_.details(budgets_[b]), sketch(c, book_.start(), start.choices[c][b]),
                         sketch(c, result.filter, best.choices[c][b])});
     }
     result.reason = unchanged ? FitReason::start_best : converged_ ? FitReason::converged : FitReason::iterations;
     result.iterations = iterations_;
     result.start_cost = start_cost_;
     result.final_cost = final_cost_;
-    result.start_condition = start_->condition();
+    result.start_condition = book_.start()->condition();
     result.final_condition = result.filter->condition();
     watch_.report(1.0, "done");
     return result;
   }
 
   const std::vector<FitCurve>& curves_;
-  FilterPtr start_;
-  Shape shape_;
   std::vector<Index> budgets_;
   FitOptions options_;
   Watch& watch_;
-  std::vector<Job> jobs_;
+  Sketchbook book_;
   int iterations_ = 0;
   bool converged_ = true;
   double start_cost_ = 0;
   double final_cost_ = 0;
 };
 
-void require_curves(const std::vector<FitCurve>& curves) {
-  if (curves.empty()) throw Error(Status::range, "curve_count", "There is no curve to fit; give at least one.").with(0);
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    if (curves[c].samples.dimension() == curves[0].samples.dimension()) continue;
-    throw Error(Status::shape, "curves",
-                "Curve " + std::to_string(c) + " has dimension " + std::to_string(curves[c].samples.dimension()) +
-                    " and the first one " + std::to_string(curves[0].samples.dimension()) +
-                    "; curves that share a filter must have one dimension.")
-        .at(static_cast<Index>(c))
-        .with(static_cast<double>(curves[c].samples.dimension()));
-  }
-}
-
-FilterPtr require_start(FilterPtr start) {
-  if (!start->shape().joined())
-    throw Error(Status::range, "start",
-                "The fit needs a joined filter to start from; this one is square. Give \"casteljau\" with the joined "
-                "topology.");
-  if (free_count(start->shape()) > most_parameters)
-    throw Error(Status::limit, "start",
-                "A filter of this shape has " + std::to_string(free_count(start->shape())) +
-                    " free entries; the fit takes at most " + std::to_string(most_parameters) +
-                    ": use fewer control points or maps.")
-        .with(free_count(start->shape()));
-  return start;
-}
-
-// Vectors that all curves' models hold at least.
-Index fewest_vectors(const std::vector<FitCurve>& curves, const Shape& shape) {
-  Index fewest = std::numeric_limits<Index>::max();
-  for (const FitCurve& curve : curves) {
-    const int levels = shape.levels_for(curve.samples.count(), curve.closed);
-    fewest = std::min(fewest, shape.control_points() + shape.first_node(levels) * shape.details_per_node());
-  }
-  return fewest;
-}
-
-std::vector<Index> require_budgets(const std::vector<FitCurve>& curves, const Shape& shape,
-                                   std::vector<Index> budgets) {
+std::vector<Index> budgets_or_default(const std::vector<FitCurve>& curves, const Shape& shape,
+                                      std::vector<Index> budgets) {
   const Index most = fewest_vectors(curves, shape);
   if (budgets.empty()) return {std::min(default_budget, most)};
-  for (std::size_t b = 0; b < budgets.size(); ++b) {
-    if (budgets[b] >= shape.control_points() && budgets[b] <= most) continue;
-    throw Error(Status::range, "budgets",
-                "budgets[" + std::to_string(b) + "] is " + std::to_string(budgets[b]) +
-                    "; a sketch of these curves holds from " + std::to_string(shape.control_points()) +
-                    " (the control points alone) to " + std::to_string(most) + " vectors.")
-        .at(static_cast<Index>(b))
-        .with(static_cast<double>(budgets[b]));
-  }
+  require_budgets(budgets, shape, most);
   return budgets;
 }
 
@@ -344,8 +159,8 @@ double merit(const FitResult& result) {
 }
 
 FitResult fit_from(const std::vector<FitCurve>& curves, FilterPtr start, const FitOptions& options, Watch& watch) {
-  start = require_start(std::move(start));
-  auto budgets = require_budgets(curves, start->shape(), options.budgets);
+  require_start(start);
+  auto budgets = budgets_or_default(curves, start->shape(), options.budgets);
   return SparseFit(curves, std::move(start), std::move(budgets), options, watch).run();
 }
 

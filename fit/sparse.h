@@ -5,13 +5,9 @@
 
 #include "base/cancel.h"
 #include "curve/model.h"
+#include "fit/curve.h"
 
 namespace ifsm::core {
-
-struct FitCurve {
-  Points samples;
-  bool closed = false;
-};
 
 struct FitOptions {
   FilterPtr start;             // joined; null: de Casteljau's of the shape below

@@ -1,8 +1,10 @@
 #include "fit/sparsity.h"
 
 #include <cmath>
+#include <numeric>
 #include <utility>
 
+#include "base/parallel.h"
 #include "curve/significance.h"
 
 namespace ifsm::core {
@@ -99,12 +101,23 @@ Sparsity::Sparsity(const Shape& shape, std::vector<SparseCurve> curves, const Wa
 
 double Sparsity::value(const RowMatrix& matrix) {
   const RowMatrix inverse = inverse_of(shape_, matrix);
-  double sum = 0;
-  for (const SparseCurve& curve : curves_) sum += value_of(curve, matrix, inverse);
-  return sum;
+  std::vector<double> values(curves_.size());
+  parallel_for(static_cast<Index>(curves_.size()), 0, [&](Index c) {
+    const auto at = static_cast<std::size_t>(c);
+    values[at] = value_of(curves_[at], matrix, inverse);
+  });
+  return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-void Sparsity::gather(const RowMatrix& matrix, Normal& normal) { rows(matrix, normal); }
+void Sparsity::gather(const RowMatrix& matrix, Normal& normal) {
+  const RowMatrix inverse = inverse_of(shape_, matrix);
+  std::vector<Normal> each(curves_.size(), Normal(static_cast<int>(entries_.size())));
+  parallel_for(static_cast<Index>(curves_.size()), 0, [&](Index c) {
+    const auto at = static_cast<std::size_t>(c);
+    gather_curve(curves_[at], matrix, inverse, each[at]);
+  });
+  for (Normal& one : each) normal += one;
+}
 
 void Sparsity::rows(const RowMatrix& matrix, RowSink& sink) const {
   const RowMatrix inverse = inverse_of(shape_, matrix);

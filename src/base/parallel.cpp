@@ -12,6 +12,24 @@ namespace {
 
 std::atomic<int> default_count{0};
 
+struct ThisThread {
+  int most = 0;
+  bool inside = false;  // a body of parallel_for, whose arena it is in
+};
+thread_local ThisThread of_this_thread;
+
+// While a body runs.
+class Inside {
+ public:
+  explicit Inside(int wanted) : before_(of_this_thread) { of_this_thread = {wanted, true}; }
+  ~Inside() { of_this_thread = before_; }
+  Inside(const Inside&) = delete;
+  Inside& operator=(const Inside&) = delete;
+
+ private:
+  ThisThread before_;
+};
+
 // TBB prints a warning when it is asked for more threads than the process may have.
 int allowed(int wanted) {
   const auto most = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
@@ -24,14 +42,34 @@ void set_default_threads(int threads) { default_count.store(threads, std::memory
 
 int default_threads() { return default_count.load(std::memory_order_relaxed); }
 
+Threads::Threads(int most) : before_(of_this_thread.most) {
+  if (most > 0) of_this_thread.most = most;
+}
+
+Threads::~Threads() { of_this_thread.most = before_; }
+
 void parallel_for(std::int64_t chunks, int threads, const std::function<void(std::int64_t chunk)>& body) {
-  const int wanted = threads > 0 ? threads : default_threads();
+  const int asked = threads > 0 ? threads : of_this_thread.most;
+  const int wanted = asked > 0 ? asked : default_threads();
   if (chunks <= 1 || wanted == 1) {
     for (std::int64_t chunk = 0; chunk < chunks; ++chunk) body(chunk);
     return;
   }
+  const auto run = [&] {
+    tbb::parallel_for(
+        std::int64_t{0}, chunks,
+        [&](std::int64_t chunk) {
+          const Inside inside(wanted);
+          body(chunk);
+        },
+        tbb::simple_partitioner{});
+  };
+  if (of_this_thread.inside) {
+    tbb::this_task_arena::isolate(run);  // a thread that waits here must not begin another of the outer chunks
+    return;
+  }
   tbb::task_arena arena(wanted > 0 ? allowed(wanted) : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::int64_t{0}, chunks, body, tbb::simple_partitioner{}); });
+  arena.execute(run);
 }
 
 }  // namespace ifsm::core

@@ -10,8 +10,21 @@ namespace ifsm::core {
 void set_default_threads(int threads);
 int default_threads();
 
-// Calls body(chunk) once for every chunk in 0 … chunks - 1, on at most `threads` threads (0: the default). Chunks must
-// not write to the same place. The first exception that a chunk throws is thrown again here, after all have ended.
+// Calls that this thread makes while the object lives use at most so many threads; 0 leaves it at the default.
+class Threads {
+ public:
+  explicit Threads(int most);
+  ~Threads();
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+ private:
+  int before_;
+};
+
+// Calls body(chunk) once for every chunk in 0 … chunks - 1, on at most `threads` threads (0: as Threads, else the
+// default says). Chunks must not write to the same place. The first exception that a chunk throws is thrown again here,
+// after all have ended. A body may call parallel_for itself: what it does then shares the same threads.
 void parallel_for(std::int64_t chunks, int threads, const std::function<void(std::int64_t chunk)>& body);
 
 }  // namespace ifsm::core

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <mutex>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -32,6 +33,50 @@ double chunked_sum(int threads) {
   double total = 0;
   for (const double sum : sums) total += sum;
   return total;
+}
+
+TEST(ParallelFor, InsideABodySharesItsThreads) {
+  constexpr std::int64_t outer = 9, inner = 40;
+  std::vector<int> calls(outer * inner, 0);
+  std::mutex mutex;
+  std::set<std::thread::id> seen;
+  parallel_for(outer, 2, [&](std::int64_t a) {
+    parallel_for(inner, 0, [&](std::int64_t b) {
+      calls[static_cast<std::size_t>(a * inner + b)] += 1;
+      const std::lock_guard lock(mutex);
+      seen.insert(std::this_thread::get_id());
+    });
+  });
+  EXPECT_EQ(calls, std::vector<int>(outer * inner, 1));
+  EXPECT_LE(seen.size(), 2u);
+}
+
+TEST(Threads, BoundTheCallsThatAThreadMakesWhileTheyLive) {
+  const auto threads_seen = [] {
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    parallel_for(200, 0, [&](std::int64_t) {
+      const std::lock_guard lock(mutex);
+      seen.insert(std::this_thread::get_id());
+    });
+    return seen;
+  };
+  {
+    const Threads one(1);
+    EXPECT_EQ(threads_seen(), std::set<std::thread::id>{std::this_thread::get_id()});
+    {
+      const Threads unchanged(0);
+      EXPECT_EQ(threads_seen().size(), 1u);
+      const Threads two(2);
+      EXPECT_LE(threads_seen().size(), 2u);
+    }
+    EXPECT_EQ(threads_seen().size(), 1u);
+    std::size_t elsewhere = 0;
+    set_default_threads(3);
+    std::thread([&] { elsewhere = threads_seen().size(); }).join();  // not bound by this thread's object
+    set_default_threads(0);
+    EXPECT_GE(elsewhere, 1u);
+  }
 }
 
 TEST(ParallelFor, PrintsNothingWhenMoreThreadsAreAskedForThanThereAre) {

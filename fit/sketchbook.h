@@ -1,0 +1,85 @@
+// Curves that share a filter, and for each of them and each budget the nearest sketch that is known under the filter
+// at hand: what fits of the filter work on.
+#pragma once
+
+#include <vector>
+
+#include "base/cancel.h"
+#include "curve/resolve.h"
+#include "fit/curve.h"
+#include "fit/minimise.h"
+
+namespace ifsm::core {
+
+// R, and the best choice of details known under it, [curve][budget].
+struct Sketches {
+  RowMatrix matrix;
+  std::vector<std::vector<Choice>> choices;
+};
+
+// How far a fit may go from its start for the sake of few details.
+struct Limits {
+  double condition = 1e2;  // of R, or twice the start's: beyond, details grow and cancel, and rounding passes 1e-12
+  double reach = 3;  // of coarse polygons from the centre, in the curve's diagonals, or twice the start's: beyond, they
+                     // are no handles, and rounding shows
+};
+
+class Sketchbook {
+ public:
+  // Budgets, a list for each curve, count control points and details. `curves` and `watch` are borrowed.
+  Sketchbook(const std::vector<FitCurve>& curves, FilterPtr start, std::vector<std::vector<Index>> budgets,
+             const Limits& limits, const Watch& watch);
+
+  const Shape& shape() const { return start_->shape(); }
+  const FilterPtr& start() const { return start_; }
+  std::size_t curves() const { return jobs_.size(); }
+  const std::vector<Index>& budgets(std::size_t curve) const { return budgets_[curve]; }
+  Index details(Index budget) const { return budget - shape().control_points(); }
+  // The exact model of a curve under the starting filter, and under any.
+  const ModelPtr& start_model(std::size_t curve) const { return jobs_[curve].start; }
+  ModelPtr model(std::size_t curve, const FilterPtr& filter) const;
+
+  // The most significant details, solved.
+  Sketches most_significant(const RowMatrix& matrix);
+  // The best choices that are found from those, or from none.
+  Sketches best(const RowMatrix& matrix, int trials);
+  // Choices bettered under the filter that is there now.
+  void pursue(Sketches& sketches, int trials);
+
+  // Σ log squared error: budgets and curves of all sizes count alike.
+  static double judged(const Sketches& sketches);
+
+  // One minimisation of the sparsity objective, its scales following the errors of `plain`.
+  Minimised made_sparse(const Sketches& plain, const MinimiseOptions& options, Watch watch);
+  // One of the sketches' own errors, their choices held.
+  Minimised polished(const Sketches& sketches, const MinimiseOptions& options, Watch watch);
+
+  // What a step must hold to beside its condition: coarse polygons near their curves.
+  bool stays_near(const RowMatrix& matrix) const;
+  MinimiseOptions options(int iterations, double tolerance, const char* stage) const;
+
+ private:
+  // A curve with its tree, and what is solved on it again and again.
+  struct Job {
+    ModelPtr start;
+    Points line;  // the finest line, from the centre: the same under every filter
+    Lanes data;
+    TreeSolver solver;
+
+    explicit Job(ModelPtr model);
+  };
+
+  // Calls body(curve) for every curve, curves sharing the threads.
+  template <class Body>
+  void each_curve(const Body& body);
+  double scale(const Job& job, double squared_error, Index budget) const;
+
+  const std::vector<FitCurve>& curves_;
+  FilterPtr start_;
+  std::vector<std::vector<Index>> budgets_;
+  Limits limits_;
+  const Watch& watch_;
+  std::vector<Job> jobs_;
+};
+
+}  // namespace ifsm::core
