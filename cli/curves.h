@@ -27,9 +27,10 @@ ifsm::Model load_model(const std::string& path);
 // In one step, see write_file. Gives back how many bytes it took.
 std::size_t save_model(const ifsm::Model& model, ifsm::Format format, const std::string& path);
 
-// By the name that `ifsm fit --filter` takes: joined where the name has that form, else square. 0 chooses the name's
-// own numbers. Throws Failure{Usage}.
-ifsm::Filter named_filter(const std::string& name, int control_points, int maps);
+// What `--filter` names. A name: joined where it has that form, else square. A path (with a point or a slash in it):
+// the filter of that model. 0 chooses the filter's own numbers. Throws Failure{Usage, Input}.
+ifsm::Filter start_filter(const std::string& filter, int control_points, int maps);
+void require_joined(const ifsm::Filter& filter, const std::string& name);
 
 // How far two rows of points of the same length are apart, in their units.
 struct Distance {

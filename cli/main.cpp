@@ -37,7 +37,8 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "ifsm " + ifsm::version());
   program.require_subcommand(1);
   program.footer(footer);
-  for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval}) add(program, session);
+  for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_train})
+    add(program, session);
   try {
     program.parse(argc, argv);
     return static_cast<int>(cli::Exit::Fine);

@@ -51,13 +51,17 @@ Index fewest_vectors(const std::vector<FitCurve>& curves, const Shape& shape) {
   return fewest;
 }
 
-void require_budgets(const std::vector<Index>& budgets, const Shape& shape, Index most) {
+void require_budgets(const std::vector<Index>& budgets, const Shape& shape, const std::vector<FitCurve>& curves) {
+  require_least_budgets(budgets, shape);
+  const auto smallest =
+      std::ranges::min_element(curves, {}, [&](const FitCurve& curve) { return vectors_of(curve, shape); });
+  const Index most = vectors_of(*smallest, shape);
   for (std::size_t b = 0; b < budgets.size(); ++b) {
-    if (budgets[b] >= shape.control_points() && budgets[b] <= most) continue;
+    if (budgets[b] <= most) continue;
     throw Error(Status::range, "budgets",
-                "budgets[" + std::to_string(b) + "] is " + std::to_string(budgets[b]) +
-                    "; a sketch of these curves holds from " + std::to_string(shape.control_points()) +
-                    " (the control points alone) to " + std::to_string(most) + " vectors.")
+                "budgets[" + std::to_string(b) + "] is " + std::to_string(budgets[b]) + "; the model of curve " +
+                    std::to_string(smallest - curves.begin()) + ", with " + std::to_string(smallest->samples.count()) +
+                    " samples, holds " + std::to_string(most) + " vectors: give at most that, or leave the curve out.")
         .at(static_cast<Index>(b))
         .with(static_cast<double>(budgets[b]));
   }

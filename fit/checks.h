@@ -18,8 +18,8 @@ void require_start(const FilterPtr& start);
 Index vectors_of(const FitCurve& curve, const Shape& shape);
 Index fewest_vectors(const std::vector<FitCurve>& curves, const Shape& shape);
 
-// Budgets that hold the control points and, when there is a most, not more.
-void require_budgets(const std::vector<Index>& budgets, const Shape& shape, Index most);
+// Budgets that hold the control points, and not more than the smallest of the curves.
+void require_budgets(const std::vector<Index>& budgets, const Shape& shape, const std::vector<FitCurve>& curves);
 void require_least_budgets(const std::vector<Index>& budgets, const Shape& shape);
 
 }  // namespace ifsm::core

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -88,11 +89,23 @@ void Sketchbook::pursue(Sketches& sketches, int trials) {
   });
 }
 
-double Sketchbook::judged(const Sketches& sketches) {
+// A squared error that is nothing but rounding: models promise 1e-12 of the diagonal at each sample.
+double Sketchbook::rounding(const Job& job) const {
+  const double of_a_sample = 1e-12 * job.start->parts().diagonal;
+  return static_cast<double>(job.start->placement().samples()) * of_a_sample * of_a_sample;
+}
+
+double Sketchbook::judged(const Sketches& sketches) const {
   double sum = 0;
-  for (const auto& row : sketches.choices)
-    for (const Choice& choice : row) sum += std::log(std::max(choice.squared_error, 1e-300));
+  for (std::size_t c = 0; c < curves(); ++c) {
+    const double least = std::max(rounding(jobs_[c]), 1e-300);
+    for (const Choice& choice : sketches.choices[c]) sum += std::log(std::max(choice.squared_error, least));
+  }
   return sum;
+}
+
+bool Sketchbook::is_worse(std::size_t curve, const Choice& sketch, const Choice& other) const {
+  return sketch.squared_error > std::max(other.squared_error, rounding(jobs_[curve]));
 }
 
 // ε follows the error: half of it, for each value that is kept.
@@ -115,13 +128,35 @@ Minimised Sketchbook::made_sparse(const Sketches& plain, const MinimiseOptions& 
   return minimise(shape(), objective, plain.matrix, options, std::move(watch));
 }
 
+// One over the squared error, so that curves and budgets of all sizes count alike; but a curve that is nearly straight,
+// told far better than others by as many vectors, must not hold the filter where it is.
+std::vector<std::vector<double>> Sketchbook::weights(const Sketches& sketches) const {
+  constexpr double share = 0.1;  // of the median error, added: a third of its RMS
+  const auto scale = [&](std::size_t c) {
+    const double diagonal = jobs_[c].start->parts().diagonal;
+    return diagonal > 0 ? diagonal * diagonal * static_cast<double>(curves_[c].samples.count()) : 1;
+  };
+  std::map<Index, std::vector<double>> errors;  // of a budget, relative to the curves' sizes
+  for (std::size_t c = 0; c < curves(); ++c)
+    for (std::size_t b = 0; b < budgets_[c].size(); ++b)
+      errors[budgets_[c][b]].push_back(sketches.choices[c][b].squared_error / scale(c));
+  for (auto& [budget, all] : errors) std::ranges::sort(all);
+  std::vector<std::vector<double>> weights(curves());
+  for (std::size_t c = 0; c < curves(); ++c)
+    for (std::size_t b = 0; b < budgets_[c].size(); ++b) {
+      const auto& all = errors[budgets_[c][b]];
+      weights[c].push_back(1 / (sketches.choices[c][b].squared_error + share * all[all.size() / 2] * scale(c)));
+    }
+  return weights;
+}
+
 Minimised Sketchbook::polished(const Sketches& sketches, const MinimiseOptions& options, Watch watch) {
   std::vector<ProjectedSketch> held;
+  const auto weight = weights(sketches);
   for (std::size_t c = 0; c < curves(); ++c)
-    for (const Choice& choice : sketches.choices[c])
-      if (choice.squared_error > 0)
-        held.push_back(
-            {&jobs_[c].solver, &jobs_[c].data, jobs_[c].start->levels(), choice.kept, 1 / choice.squared_error});
+    for (std::size_t b = 0; b < budgets_[c].size(); ++b)
+      if (const Choice& choice = sketches.choices[c][b]; choice.squared_error > rounding(jobs_[c]))
+        held.push_back({&jobs_[c].solver, &jobs_[c].data, jobs_[c].start->levels(), choice.kept, weight[c][b]});
   Projection objective(shape(), std::move(held), watch_);
   return minimise(shape(), objective, sketches.matrix, options, std::move(watch));
 }
@@ -131,7 +166,7 @@ bool Sketchbook::stays_near(const RowMatrix& matrix) const {
   const RowMatrix inverse = inverse_of(shape(), matrix);
   return std::ranges::all_of(jobs_, [&](const Job& job) {
     return largest_polygon(shape(), inverse, job.line, job.start->levels()) <=
-           std::max(limits_.reach * job.start->parts().diagonal, 2 * job.start->parts().largest_polygon);
+           std::max(limits_.reach * job.start->parts().diagonal, job.start->parts().largest_polygon);
   });
 }
 

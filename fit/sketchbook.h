@@ -20,8 +20,8 @@ struct Sketches {
 // How far a fit may go from its start for the sake of few details.
 struct Limits {
   double condition = 1e2;  // of R, or twice the start's: beyond, details grow and cancel, and rounding passes 1e-12
-  double reach = 3;  // of coarse polygons from the centre, in the curve's diagonals, or twice the start's: beyond, they
-                     // are no handles, and rounding shows
+  double reach = 0.75;     // of coarse polygons from the centre, in the curve's diagonals, or the start's: beyond, they
+                           // are poor handles, and far beyond, rounding shows
 };
 
 class Sketchbook {
@@ -46,8 +46,10 @@ class Sketchbook {
   // Choices bettered under the filter that is there now.
   void pursue(Sketches& sketches, int trials);
 
-  // Σ log squared error: budgets and curves of all sizes count alike.
-  static double judged(const Sketches& sketches);
+  // Σ log squared error: budgets and curves of all sizes count alike. Errors below rounding are all the same.
+  double judged(const Sketches& sketches) const;
+  // Is a sketch farther from its curve than another, and not by rounding?
+  bool is_worse(std::size_t curve, const Choice& sketch, const Choice& other) const;
 
   // One minimisation of the sparsity objective, its scales following the errors of `plain`.
   Minimised made_sparse(const Sketches& plain, const MinimiseOptions& options, Watch watch);
@@ -73,6 +75,8 @@ class Sketchbook {
   template <class Body>
   void each_curve(const Body& body);
   double scale(const Job& job, double squared_error, Index budget) const;
+  double rounding(const Job& job) const;
+  std::vector<std::vector<double>> weights(const Sketches& sketches) const;
 
   const std::vector<FitCurve>& curves_;
   FilterPtr start_;

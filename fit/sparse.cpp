@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "curve/named.h"
+#include "curve/scale.h"
 #include "fit/checks.h"
 #include "fit/parameters.h"
 #include "fit/sketchbook.h"
@@ -49,8 +50,8 @@ class SparseFit {
   void consider(const Sketches& candidate, const Sketches& start, Sketches& best) const {
     for (std::size_t c = 0; c < curves_.size(); ++c)
       for (std::size_t b = 0; b < budgets_.size(); ++b)
-        if (candidate.choices[c][b].squared_error > start.choices[c][b].squared_error) return;
-    if (Sketchbook::judged(candidate) < Sketchbook::judged(best)) best = candidate;
+        if (book_.is_worse(c, candidate.choices[c][b], start.choices[c][b])) return;
+    if (book_.judged(candidate) < book_.judged(best)) best = candidate;
   }
 
   Sketches made_sparse(const Sketches& state, Watch watch) {
@@ -79,7 +80,7 @@ class SparseFit {
       count(found);
       Sketches next{found.matrix, state.choices};
       book_.pursue(next, round + 1 == rounds ? last_pursuit_trials : pursuit_trials);
-      const double fall = Sketchbook::judged(state) - Sketchbook::judged(next);
+      const double fall = book_.judged(state) - book_.judged(next);
       if (!(fall > 0)) break;
       state = std::move(next);
       if (fall < 1e-3) break;
@@ -142,11 +143,18 @@ class SparseFit {
   double final_cost_ = 0;
 };
 
+// A quarter of the samples of small curves: a sketch of more vectors than that is hardly one.
+Index least_budget(const std::vector<FitCurve>& curves) {
+  Index least = default_budget;
+  for (const FitCurve& curve : curves) least = std::min(least, curve.samples.count() / 4);
+  return least;
+}
+
 std::vector<Index> budgets_or_default(const std::vector<FitCurve>& curves, const Shape& shape,
                                       std::vector<Index> budgets) {
   const Index most = fewest_vectors(curves, shape);
-  if (budgets.empty()) return {std::min(default_budget, most)};
-  require_budgets(budgets, shape, most);
+  if (budgets.empty()) return {std::min(most, std::max(least_budget(curves), Index{shape.control_points()}))};
+  require_budgets(budgets, shape, curves);
   return budgets;
 }
 
@@ -156,6 +164,22 @@ double merit(const FitResult& result) {
   for (const auto& rows : result.budgets)
     for (const FitBudget& row : rows) sum += std::log(std::max(row.fitted.rms, 1e-300));
   return sum;
+}
+
+// Where a fit starts that is told nothing: coast where it has the shape, unless de Casteljau's filter is nowhere worse
+// (smooth curves: it reproduces polynomials).
+FilterPtr better_start(const std::vector<FitCurve>& curves, int control_points, int maps, const FitOptions& options,
+                       const Watch& watch) {
+  FilterPtr first = default_filter(control_points, maps);
+  const FilterPtr second = named_filter("casteljau", Topology::joined, control_points, maps);
+  if (first->matrix() == second->matrix()) return first;
+  const auto budgets = std::vector(curves.size(), budgets_or_default(curves, first->shape(), options.budgets));
+  Sketchbook book(curves, first, budgets, Limits{}, watch);
+  const Sketches a = book.best(first->matrix(), pursuit_trials), b = book.best(second->matrix(), pursuit_trials);
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    for (std::size_t k = 0; k < budgets[c].size(); ++k)
+      if (book.is_worse(c, b.choices[c][k], a.choices[c][k])) return first;
+  return book.judged(b) < book.judged(a) ? second : first;
 }
 
 FitResult fit_from(const std::vector<FitCurve>& curves, FilterPtr start, const FitOptions& options, Watch& watch) {
@@ -180,10 +204,7 @@ bool holds(const std::vector<FitCurve>& curves, const Shape& shape, const std::v
   return std::ranges::all_of(budgets, [&](Index b) { return b >= shape.control_points() && b <= most; });
 }
 
-}  // namespace
-
-FitResult fit_sparse(const std::vector<FitCurve>& curves, const FitOptions& options, Watch& watch) {
-  require_curves(curves);
+FitResult fit_near_unit_size(const std::vector<FitCurve>& curves, const FitOptions& options, Watch& watch) {
   if (options.start) return fit_from(curves, options.start, options, watch);
   std::vector<std::pair<int, int>> shapes = shapes_asked(options);
   if (shapes.size() > 1) {
@@ -199,10 +220,31 @@ FitResult fit_sparse(const std::vector<FitCurve>& curves, const FitOptions& opti
     Watch part = watch.part(static_cast<double>(i) / static_cast<double>(shapes.size()),
                             static_cast<double>(i + 1) / static_cast<double>(shapes.size()));
     const auto [n, maps] = shapes[i];
-    FitResult found = fit_from(curves, named_filter("casteljau", Topology::joined, n, maps), options, part);
+    FitResult found = fit_from(curves, better_start(curves, n, maps, options, watch), options, part);
     if (!best || merit(found) < merit(*best)) best = std::move(found);
   }
   return std::move(*best);
+}
+
+Sketch scaled(const Sketch& sketch, int exponent) {
+  return {scaled(*sketch.model, exponent), std::scalbn(sketch.rms, exponent), std::scalbn(sketch.max, exponent)};
+}
+
+}  // namespace
+
+FitResult fit_sparse(const std::vector<FitCurve>& curves, const FitOptions& options, Watch& watch) {
+  require_curves(curves);
+  watch.report(0.0, "start");
+  const ScaledCurves near = near_unit_size(curves);
+  FitResult result = fit_near_unit_size(near.any ? near.curves : curves, options, watch);
+  for (std::size_t c = 0; near.any && c < curves.size(); ++c) {
+    result.models[c] = analyze(result.filter, curves[c].samples, curves[c].closed);
+    for (FitBudget& row : result.budgets[c]) {
+      row.start = scaled(row.start, near.exponents[c]);
+      row.fitted = scaled(row.fitted, near.exponents[c]);
+    }
+  }
+  return result;
 }
 
 }  // namespace ifsm::core

@@ -10,7 +10,7 @@
 namespace ifsm::core {
 
 struct FitOptions {
-  FilterPtr start;             // joined; null: de Casteljau's of the shape below
+  FilterPtr start;             // joined; null: default_filter of the shape below
   int control_points = 5;      // 0: chosen among 2 … 6
   int maps = 2;                // 0: chosen among 2 … 4
   std::vector<Index> budgets;  // vectors of a sketch, control points and details; empty: 128, or all of smaller curves

@@ -59,12 +59,12 @@ class Training {
 
   TrainResult run() {
     Sketches best = book_.best(options_.start->matrix(), pursuit_trials);
-    const double start = Sketchbook::judged(best);
+    const double start = book_.judged(best);
     TrainResult result;
     result.reason = TrainReason::rounds;
     while (result.rounds < options_.rounds && free_count(book_.shape()) > 0) {
       Sketches next = bettered(best, result);
-      const double fall = Sketchbook::judged(best) - Sketchbook::judged(next);
+      const double fall = book_.judged(best) - book_.judged(next);
       if (fall > 0) best = std::move(next);
       if (fall < least_fall * static_cast<double>(family_.sketches)) {
         result.reason = TrainReason::converged;
@@ -73,7 +73,7 @@ class Training {
     }
     result.filter = std::make_shared<Filter>(book_.shape(), best.matrix);
     if (best.matrix == options_.start->matrix()) result.reason = TrainReason::start_best;
-    result.ratio = mean_ratio(Sketchbook::judged(best) - start, family_);
+    result.ratio = mean_ratio(book_.judged(best) - start, family_);
     return result;
   }
 
@@ -105,15 +105,17 @@ class Training {
 double judge(const Family& family, const FilterPtr& start, const FilterPtr& trained, const Watch& watch) {
   if (family.curves.empty()) return std::numeric_limits<double>::quiet_NaN();
   Sketchbook book(family.curves, start, family.budgets, Limits{}, watch);
-  const double before = Sketchbook::judged(book.best(start->matrix(), judging_trials));
-  const double after = Sketchbook::judged(book.best(trained->matrix(), judging_trials));
+  const double before = book.judged(book.best(start->matrix(), judging_trials));
+  const double after = book.judged(book.best(trained->matrix(), judging_trials));
   return Training::mean_ratio(after - before, family);
 }
 
 }  // namespace
 
-TrainResult train(const std::vector<FitCurve>& curves, const TrainOptions& options, Watch& watch) {
-  require_curves(curves);
+TrainResult train(const std::vector<FitCurve>& given, const TrainOptions& options, Watch& watch) {
+  require_curves(given);
+  watch.report(0.0, "train");
+  const std::vector<FitCurve> curves = near_unit_size(given).curves;
   require_start(options.start);
   const Shape& shape = options.start->shape();
   require_least_budgets(options.budgets, shape);

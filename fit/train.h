@@ -17,7 +17,7 @@ struct TrainOptions {
                                // eighth of its samples
   int hold_out = 0;            // every so-manyth curve is kept out of the training and judged at the end; 0: none
   int iterations = 10;         // of a round: the choice of details changes after them
-  int rounds = 24;
+  int rounds = 12;
   Limits limits{30, 3};  // narrower than those of a fit: many will edit what the filter makes of their curves
 };
 

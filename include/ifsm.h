@@ -195,7 +195,8 @@ typedef struct ifsm_filter_info {
 
 /* A filter by name, as a wavelet is chosen.
  *
- * name            borrowed, NUL-terminated. "casteljau": joined or square, any n and N: subdivides a Bézier polygon
+ * name            borrowed, NUL-terminated. "coast": joined, n = 5, N = 2: trained on coastlines, where a fit starts
+ *                 that is told nothing else. "casteljau": joined or square, any n and N: subdivides a Bézier polygon
  *                 into N pieces. Square ones, with their own n and N: "haar" (1, 2), "bspline" (4, 2: uniform cubic),
  *                 "four-point" (6, 2), "koch" (3, 4), "takagi" (3, 2)
  * topology        IFSM_TOPOLOGY_…
@@ -519,8 +520,9 @@ typedef struct ifsm_fit {
 
 typedef struct ifsm_fit_options {
   uint32_t struct_size;
-  int32_t threads;        /* at most so many, 0: as ifsm_set_threads says; this version's fit runs on one */
-  ifsm_filter start;      /* borrowed: where to start, joined, its shape instead of the one below; {0}: casteljau */
+  int32_t threads;        /* at most so many, 0: as ifsm_set_threads says; curves of one fit share them */
+  ifsm_filter start;      /* borrowed: where to start, joined, its shape instead of the one below; {0}: coast where it
+                             has that shape, else casteljau */
   int32_t control_points; /* n, 2 … 16; 0: 5; -1: chosen among 2 … 6 */
   int32_t maps;           /* N, 2 … 8; 0: 2; -1: chosen among 2 … 4 */
   const int64_t *budgets; /* borrowed: how many vectors, control points and details together, a sketch may hold that
@@ -610,6 +612,70 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_describe_budget(ifsm_fit fit, int64_
 
 /* Models taken from the fit live on. {0} is fine. Errors: INVALID_HANDLE. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_destroy(ifsm_fit fit);
+
+/* ------------------------------------------------------------------------------------------------------------
+ * Training: one filter for a family of curves, to be chosen as a wavelet is
+ */
+
+typedef struct ifsm_train_options {
+  uint32_t struct_size;
+  int32_t threads;        /* at most so many; 0: as ifsm_set_threads says */
+  ifsm_filter start;      /* borrowed: where to start, joined, its shape instead of the one below; {0}: casteljau */
+  int32_t control_points; /* n, 2 … 16; 0: 5 */
+  int32_t maps;           /* N, 2 … 8; 0: 2 */
+  const int64_t *budgets; /* borrowed: vectors of the sketches that are to be near their curves, each n …; a curve takes
+                             those that it holds; NULL: 16, 32, 64 … up to an eighth of its samples */
+  int64_t budget_count;   /* 0 … 64 */
+  int32_t hold_out;       /* curves hold_out - 1, 2 hold_out - 1, … are not trained on, but judged at the end: 2 …; 0:
+                             none */
+  int32_t rounds;         /* at most so many, the choice of details bettered after each, 1 … 1000; 0: 12 */
+  int32_t iterations;     /* Levenberg-Marquardt iterations a round at most, 1 … 1000; 0: 10 */
+  int32_t reserved;       /* 0 */
+  double condition;       /* condition number of R, at most (or twice the start's); 0: 30 */
+  double reach;           /* of coarse polygons from the middle of their curve, in its diagonals, at most (or twice the
+                             start's); 0: 3 */
+  ifsm_cancel cancel;     /* borrowed; {0} for none */
+  ifsm_progress_callback progress; /* may be NULL */
+  void *user;                      /* handed to `progress` */
+} ifsm_train_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_train_options_init(ifsm_train_options *options, uint32_t size);
+
+/* Why training stopped. */
+enum {
+  IFSM_TRAIN_CONVERGED = 0,  /* another round would hardly better the sketches */
+  IFSM_TRAIN_ROUNDS = 1,     /* all rounds were used */
+  IFSM_TRAIN_START_BEST = 2  /* nothing better than the start was found: the start is returned */
+};
+
+typedef struct ifsm_train_report {
+  uint32_t struct_size;
+  int32_t reason;        /* IFSM_TRAIN_… */
+  int64_t trained;       /* curves that were trained on, and curves held out; those that hold no budget are neither */
+  int64_t held_out;
+  int64_t sketches;      /* of the curves trained on: one a budget */
+  int64_t rounds;
+  int64_t iterations;    /* Levenberg-Marquardt iterations, all rounds */
+  double ratio;          /* geometric mean of the sketches' RMS errors, trained over start: at most 1 */
+  double held_out_ratio; /* the same of the curves held out; NaN when there are none */
+} ifsm_train_report;
+
+/* Trains a filter on curves of one kind, so that few details tell any of them: what is minimised is the error of their
+ * solved sketches (as IFSM_RESOLVE_CHOICE gives them), relatively, all curves and budgets alike; a curve that is told far
+ * better than the others counts less. A curve's own fit (ifsm_fit_sparse) may start from the result.
+ *
+ * curves        borrowed: all of one dimension. Sampled alike, e.g. equally far apart: the filter learns that too
+ * curve_count   1 …
+ * options       borrowed; NULL for defaults
+ * filter        [out] owned by the caller
+ * report        [out] with struct_size set
+ *
+ * Errors: NULL, RANGE, SHAPE, NOT_FINITE, INVALID_HANDLE, CANCELLED, NUMERICAL, LIMIT, OPTIONS, MEMORY. Deterministic.
+ * The callbacks run on this thread. Source: docs/fitting.md. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_train(const ifsm_curve *curves, int64_t curve_count,
+                                              const ifsm_train_options *options, ifsm_filter *filter,
+                                              ifsm_train_report *report);
 
 #ifdef __cplusplus
 }

@@ -467,6 +467,13 @@ class Fit {
 
 namespace detail {
 
+inline std::vector<ifsm_curve> curves_of(const std::vector<Curve>& curves) {
+  std::vector<ifsm_curve> given;
+  given.reserve(curves.size());
+  for (const Curve& curve : curves) given.push_back(curve.get());
+  return given;
+}
+
 // Stands between the library and a std::function: an exception waits here until the library has returned.
 struct Trampoline {
   const std::function<bool(double, const std::string&)>* progress;
@@ -487,10 +494,7 @@ struct Trampoline {
 
 // One filter for all curves, under which few details tell them.
 inline Fit fit_sparse(const std::vector<Curve>& curves, const FitOptions& options = {}) {
-  std::vector<ifsm_curve> given;
-  given.reserve(curves.size());
-  for (const Curve& curve : curves) given.push_back(curve.get());
-
+  const std::vector<ifsm_curve> given = detail::curves_of(curves);
   detail::Trampoline trampoline{&options.progress, nullptr};
   ifsm_fit_options told{};
   detail::check(ifsm_fit_options_init(&told, sizeof told));
@@ -512,6 +516,57 @@ inline Fit fit_sparse(const std::vector<Curve>& curves, const FitOptions& option
   if (trampoline.thrown) std::rethrow_exception(trampoline.thrown);
   detail::check(status);
   return fit;
+}
+
+struct TrainOptions {
+  int threads = 0;
+  const Filter* start = nullptr;  // where to start
+  int control_points = 0;
+  int maps = 0;
+  std::vector<std::int64_t> budgets;  // of vectors, control points and details together
+  int hold_out = 0;                   // every so-manyth curve is judged, not trained on
+  int rounds = 0;
+  int iterations = 0;
+  double condition = 0;
+  double reach = 0;
+  const Cancel* cancel = nullptr;
+  // Returns true to cancel. Runs on the calling thread; what it throws comes out of train.
+  std::function<bool(double fraction, const std::string& stage)> progress;
+};
+
+struct Trained {
+  Filter filter;
+  ifsm_train_report report;
+};
+
+// One filter for a family of curves.
+inline Trained train(const std::vector<Curve>& curves, const TrainOptions& options = {}) {
+  const std::vector<ifsm_curve> given = detail::curves_of(curves);
+  detail::Trampoline trampoline{&options.progress, nullptr};
+  ifsm_train_options told{};
+  detail::check(ifsm_train_options_init(&told, sizeof told));
+  told.threads = options.threads;
+  if (options.start != nullptr) told.start = options.start->handle();
+  told.control_points = options.control_points;
+  told.maps = options.maps;
+  told.budgets = options.budgets.empty() ? nullptr : options.budgets.data();
+  told.budget_count = detail::size_of(options.budgets.size());
+  told.hold_out = options.hold_out;
+  told.rounds = options.rounds;
+  told.iterations = options.iterations;
+  told.condition = options.condition;
+  told.reach = options.reach;
+  if (options.cancel != nullptr) told.cancel = options.cancel->handle();
+  if (options.progress) told.progress = detail::Trampoline::call, told.user = &trampoline;
+
+  ifsm_filter made{};
+  ifsm_train_report report{};
+  report.struct_size = sizeof report;
+  const ifsm_status status = ifsm_train(given.data(), detail::size_of(given.size()), &told, &made, &report);
+  Filter filter(made);
+  if (trampoline.thrown) std::rethrow_exception(trampoline.thrown);
+  detail::check(status);
+  return {std::move(filter), report};
 }
 
 }  // namespace ifsm

@@ -73,26 +73,19 @@ void check_arguments(const FitArguments& arguments) {
   check_writable(arguments.output);
 }
 
-ifsm::Filter start_filter(const FitArguments& arguments, const std::string& name) {
-  return named_filter(name, shape_number(arguments.control_points), shape_number(arguments.maps));
-}
-
-void check_joined(const ifsm::Filter& filter, const std::string& name) {
-  if (filter.describe().topology != IFSM_TOPOLOGY_JOINED)
-    throw Failure(Exit::Usage, "--filter: '" + name +
-                                   "' is a square filter, and a fit starts from a joined one; use "
-                                   "casteljau, or add --no-fit to use the filter as it is.");
+ifsm::Filter chosen_filter(const FitArguments& arguments, const std::string& name) {
+  return start_filter(name, shape_number(arguments.control_points), shape_number(arguments.maps));
 }
 
 ifsm::Model exact_model(const FitArguments& arguments, const Samples& samples) {
-  return {start_filter(arguments, arguments.filter.empty() ? "casteljau" : arguments.filter), samples.curve()};
+  return {chosen_filter(arguments, arguments.filter), samples.curve()};
 }
 
 ifsm::Fit fitted(const FitArguments& arguments, const Samples& samples, Session& session) {
   ifsm::Filter start;
   if (!arguments.filter.empty()) {
-    start = start_filter(arguments, arguments.filter);
-    check_joined(start, arguments.filter);
+    start = chosen_filter(arguments, arguments.filter);
+    require_joined(start, arguments.filter);
   }
   const Interrupt::Cancellable job(session.interrupt);
   Progress progress("fit", Progress::style_of_terminal(arguments.talk.quiet));
@@ -229,7 +222,10 @@ void add_fit(CLI::App& program, Session& session) {
       ->check(number_or_auto(1, 16));
   command->add_option("--maps", a.maps, "Pieces that a polygon is cut into, N (default 2)")
       ->check(number_or_auto(2, 8));
-  command->add_option("--filter", a.filter, "Where to start (default casteljau); an unknown name lists the known ones");
+  command->add_option("--filter", a.filter,
+                      "Where to start: a name (default coast, or casteljau for shapes that it does not have; an "
+                      "unknown one lists the known ones), or a file: the filter "
+                      "of any model, or of ifsm train");
   command->add_option("--format", a.format, "json or cbor (default: json when the name ends in .json, else cbor)")
       ->check(CLI::IsMember({"json", "cbor"}));
   auto* iterations = command->add_option("--iterations", a.iterations, "At most so many a round (default 40)")

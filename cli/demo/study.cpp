@@ -40,7 +40,7 @@ std::string fixed(double value) {
 
 Study study(const std::string& path, const Progress& progress) {
   Study study{cli::read_samples(path, {}, true), {}, 0, {}};
-  const auto start = cli::named_filter(start_name, 0, 0);
+  const auto start = cli::start_filter(start_name, 0, 0);
   const ifsm::Model exact(start, study.samples.curve());
   study.numbers_of_filter = free_numbers(start.describe());
   for (std::size_t i = 0; i < budgets.size(); ++i) {

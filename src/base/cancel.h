@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
+#include <thread>
 
 namespace ifsm::core {
 
@@ -21,27 +23,36 @@ struct Cancelled {};
 
 class Watch {
  public:
-  // progress(fraction, stage) returns true to cancel; it runs on the thread that calls report().
+  // progress(fraction, stage) returns true to cancel; it runs on the thread that made the watch.
   using Progress = std::function<bool(double fraction, const char* stage)>;
 
   Watch() = default;
   Watch(const CancelToken* token, Progress progress);
 
-  // Throws Cancelled when the token was raised. Any thread; costs one load.
+  // Throws Cancelled when the token was raised, or when the progress callback says so, which is asked again when it has
+  // not been for a while. Any thread (others than the watch's own ask the token alone); costs a look at the clock.
   void poll() const {
     if (token_ != nullptr && token_->requested()) throw Cancelled{};
+    if (progress_) ask_again();
   }
 
-  // Polls, then tells the progress callback; `fraction` never goes back: a smaller one is told as the last.
+  // Polls, then tells the progress callback; `fraction` never goes back: a smaller one is told as the last. `stage` is
+  // static.
   void report(double fraction, const char* stage);
 
   // Everything reported through the result lies in [from, to] of this watch.
   Watch part(double from, double to);
 
  private:
+  using Clock = std::chrono::steady_clock;
+  void ask_again() const;
+
   const CancelToken* token_ = nullptr;
   Progress progress_;
+  std::thread::id owner_;
   double reported_ = 0;
+  const char* stage_ = "";
+  mutable Clock::time_point asked_;  // the owner's
 };
 
 }  // namespace ifsm::core

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "base/parallel.h"
 #include "capi/arguments.h"
-#include "capi/curves.h"
+#include "capi/fitting.h"
 #include "capi/guarded.h"
 #include "capi/log.h"
 #include "capi/nouns.h"
@@ -15,54 +16,17 @@ using namespace ifsm::core;
 
 namespace {
 
-constexpr int64_t most_curves = int64_t{1} << 20;
-constexpr int64_t most_budgets = 64;
-constexpr int32_t chosen = -1;  // in C's options; the core says 0
-
-std::vector<FitCurve> curves_of(const ifsm_curve* curves, int64_t count) {
-  in_range(count, 1, most_curves, "curve_count");
-  required(curves, "curves");
-  std::vector<FitCurve> copies;
-  for (int64_t c = 0; c < count; ++c) {
-    const std::string prefix = "curves[" + std::to_string(c) + "].";
-    copies.push_back({samples_of(curves[c], prefix), is_closed(curves[c], prefix)});
-  }
-  return copies;
-}
-
-// A count whose zero means a default.
-int count_or(int32_t value, int32_t most, int otherwise, const char* argument) {
-  in_range(value, 0, most, argument);
-  return value == 0 ? otherwise : value;
-}
-
-// A count whose zero means a default and whose -1 means none, or "choose one".
-int count_or_none(int32_t value, int32_t most, int otherwise, const char* argument) {
-  in_range(value, chosen, most, argument);
-  return value == 0 ? otherwise : value == chosen ? 0 : value;
-}
-
 FitOptions options_of(const ifsm_fit_options& given) {
-  in_range(given.threads, 0, 1024, "threads");  // the stage runs on one; results never depend on it
   in_range(given.reserved, 0, 0, "reserved");
   FitOptions options;
   options.start = borrow_if_any(given.start, "start");
   options.control_points = count_or_none(given.control_points, 16, options.control_points, "control_points");
   options.maps = count_or_none(given.maps, 8, options.maps, "maps");
-  in_range(given.budget_count, 0, most_budgets, "budget_count");
-  const auto budgets = input(given.budgets, given.budget_count, "budgets", "budget_count");
-  options.budgets.assign(budgets.begin(), budgets.end());
+  options.budgets = budgets_of(given.budgets, given.budget_count);
   options.iterations = count_or(given.iterations, 1000, options.iterations, "iterations");
   options.sparse_rounds = count_or(given.rounds, 100, options.sparse_rounds, "rounds");
   options.polish_rounds = count_or_none(given.polish, 100, options.polish_rounds, "polish");
   return options;
-}
-
-Watch::Progress progress_of(const ifsm_fit_options& given) {
-  if (given.progress == nullptr) return nullptr;
-  return [call = given.progress, user = given.user](double fraction, const char* stage) {
-    return call(user, fraction, stage) != 0;
-  };
 }
 
 void log_summary(const FitResult& fit) {
@@ -93,9 +57,10 @@ ifsm_status ifsm_fit_sparse(const ifsm_curve* curves, int64_t curve_count, const
     required(fit, "fit");
     const ifsm_fit_options read = read_options(given);
     const FitOptions options = options_of(read);
+    const Threads threads(static_cast<int>(in_range(read.threads, 0, 1024, "threads")));
     const auto token = borrow_if_any(read.cancel, "cancel");
     const auto samples = curves_of(curves, curve_count);
-    Watch watch(token.get(), progress_of(read));
+    Watch watch(token.get(), progress_of(read.progress, read.user));
     auto result = std::make_shared<FitResult>(fit_sparse(samples, options, watch));
     log_summary(*result);
     issue(std::move(result), *fit);

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "curve/coast.h"
 #include "curve/complement.h"
 
 namespace ifsm::core {
@@ -85,7 +86,34 @@ FilterPtr from_known(const Known& known, Topology topology, int control_points, 
   return std::make_shared<Filter>(shape, with_complement(shape, t));
 }
 
+const Trained* coast_of(int control_points, int maps) {
+  for (const Trained& one : coast_filters())
+    if ((control_points == 0 || control_points == one.control_points) && (maps == 0 || maps == one.maps)) return &one;
+  return nullptr;
+}
+
+FilterPtr from_coast(Topology topology, int control_points, int maps) {
+  const Trained* trained = coast_of(control_points, maps);
+  if (topology == Topology::joined && trained != nullptr) {
+    const Shape shape(topology, trained->control_points, trained->maps);
+    const Eigen::Map<const Eigen::Matrix<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> entries(
+        trained->entries.data(), shape.rows(), shape.rows());
+    return std::make_shared<Filter>(shape, entries.cast<double>() * Trained::unit);
+  }
+  std::string shapes;
+  for (const Trained& one : coast_filters())
+    shapes += (shapes.empty() ? "" : "; ") + std::to_string(one.control_points) + " control points and " +
+              std::to_string(one.maps) + " maps";
+  throw Error(Status::range, topology != Topology::joined ? "topology" : "control_points",
+              "The filter \"coast\" is joined and trained for " + shapes + "; give 0 for its own numbers.");
+}
+
 }  // namespace
+
+FilterPtr default_filter(int control_points, int maps) {
+  return named_filter(coast_of(control_points, maps) != nullptr ? "coast" : "casteljau", Topology::joined,
+                      control_points, maps);
+}
 
 RowMatrix de_casteljau_maps(const Shape& shape) {
   const int n = shape.control_points();
@@ -100,7 +128,8 @@ FilterPtr named_filter(std::string_view name, Topology topology, int control_poi
     const Shape shape(topology, control_points == 0 ? 5 : control_points, maps == 0 ? 2 : maps);
     return std::make_shared<Filter>(shape, with_complement(shape, de_casteljau_maps(shape)));
   }
-  std::string names = "casteljau";
+  if (name == "coast") return from_coast(topology, control_points, maps);
+  std::string names = "casteljau, coast";
   for (const Known& known : known_filters()) {
     if (known.name == name) return from_known(known, topology, control_points, maps);
     names += ", " + std::string(known.name);

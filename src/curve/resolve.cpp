@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "curve/conjugate.h"
+#include "curve/scale.h"
 
 namespace ifsm::core {
 namespace {
@@ -46,6 +47,8 @@ Eigen::VectorXd sample_weights(const Model& model) {
 Lanes lanes_of(const Points& line) { return line.matrix(); }
 
 ModelPtr resolve(const Model& model, const Kept& kept, const Watch& watch) {
+  if (const int exponent = exponent_to_remove(model.parts().diagonal))
+    return scaled(*resolve(*scaled(model, -exponent), kept, watch), exponent);
   const ModelPtr sketch = keep(model, kept);
   if (!model.shape().joined()) return conjugate_resolve(model, *sketch, kept, watch);
   TreeSolver solver = solver_of(model);
@@ -57,6 +60,8 @@ ModelPtr resolve(const Model& model, const Kept& kept, const Watch& watch) {
 
 ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch) {
   if (!model.shape().joined()) return resolve(model, kept, watch);
+  if (const int exponent = exponent_to_remove(model.parts().diagonal))
+    return scaled(*resolve_choice(*scaled(model, -exponent), kept, watch), exponent);
   TreeSolver solver = solver_of(model);
   const Lanes data = lanes_of(line(model, model.levels()));
   const RowMatrix& filter = model.filter().matrix();

@@ -207,6 +207,10 @@ void Call::prepare(std::size_t i) {
       options.struct_size = size, options.control_points = control_points, options.iterations = options.rounds = 1;
       options.polish = -1;  // none
       std::memcpy(buffer.data(), &options, sizeof options);
+    } else if (parameter.type == "ifsm_train_options") {
+      ifsm_train_options options{};
+      options.struct_size = size, options.control_points = control_points, options.iterations = options.rounds = 1;
+      std::memcpy(buffer.data(), &options, sizeof options);
     }
   } else if (is_output(kind) && !is_array_out(kind)) {
     buffer.assign(parameter.size + guard, canary);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <string>
 #include <thread>
 #include <utility>
@@ -58,6 +59,36 @@ TEST(Watch, TellsFractionsThatNeverGoBackNorPassOne) {
   const std::vector<std::pair<double, std::string>> expected = {
       {0.0, "s"}, {0.5, "s"}, {0.5, "s"}, {1.0, "s"}, {1.0, "s"}};
   EXPECT_EQ(told, expected);
+}
+
+TEST(Watch, AsksTheCallbackAgainWhileItIsPolledAndNothingIsReported) {
+  int asked = 0;
+  double told = 0.25;
+  Watch watch(nullptr, [&](double fraction, const char* stage) {
+    EXPECT_EQ(fraction, told);
+    EXPECT_STREQ(stage, "s");
+    return ++asked >= 3;
+  });
+  watch.report(0.25, "s");
+  EXPECT_THROW(for (;;) watch.poll(), Cancelled);
+  EXPECT_EQ(asked, 3);
+
+  asked = 0;
+  told = 0.5;
+  Watch part = watch.part(0.5, 1);
+  part.report(0, "s");
+  EXPECT_THROW(for (;;) part.poll(), Cancelled);
+  EXPECT_THROW(for (;;) watch.poll(), Cancelled) << "the whole asks as well";
+}
+
+TEST(Watch, AsksTheCallbackOnItsOwnThreadAlone) {
+  int asked = 0;
+  const Watch watch(nullptr, [&](double, const char*) { return ++asked > 0; });
+  std::thread([&] {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(150);
+    while (std::chrono::steady_clock::now() < until) watch.poll();
+  }).join();
+  EXPECT_EQ(asked, 0);
 }
 
 TEST(Watch, APartFillsItsShareOfTheWhole) {

@@ -134,6 +134,21 @@ TEST(Cpp, FitsCurves) {
   EXPECT_THROW(fit.model(1), ifsm::Error);
 }
 
+TEST(Cpp, TrainsAFilter) {
+  ifsm::TrainOptions options;
+  options.control_points = 3;
+  options.rounds = options.iterations = 2;
+  options.budgets = {12};
+  options.hold_out = 2;
+  const ifsm::Trained trained = ifsm::train({{samples, 2}, {samples, 2}}, options);
+  EXPECT_EQ(trained.filter.describe().control_points, 3);
+  EXPECT_EQ(trained.report.trained, 1);
+  EXPECT_EQ(trained.report.held_out, 1);
+  EXPECT_LE(trained.report.ratio, 1);
+  options.progress = [](double, const std::string&) { return true; };
+  EXPECT_THROW(ifsm::train({{samples, 2}}, options), ifsm::Cancelled);
+}
+
 TEST(Cpp, CarriesWhatACallbackThrowsAroundTheLibrary) {
   auto options = quick();
   options.progress = [](double, const std::string&) -> bool { throw std::domain_error("mine"); };

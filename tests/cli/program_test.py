@@ -280,6 +280,31 @@ class Output(Program):
                 self.assertIn("standard output", result.stderr)
 
 
+class Train(Program):
+    def family(self):
+        return [self.file(f"{k}.csv", table(rough_ring(200 + 10 * k))) for k in range(4)]
+
+    def test_a_filter_is_trained_told_of_and_fitted_with(self):
+        report = self.fine("train", *self.family(), "--closed", "--control-points", 4, "--rounds", 2, "--hold-out", 4,
+                             "-o", self.file("f.json"), "--json")
+        report = json.loads(report)
+        self.assertEqual((report["trained"], report["held_out"], report["control_points"]), (3, 1, 4))
+        self.assertLessEqual(report["ratio"], 1)
+        self.assertGreater(report["held_out_ratio"], 0)
+        self.fine("fit", self.file("0.csv"), "--closed", "--no-fit", "--filter", self.file("f.json"), "-o",
+                    self.file("m.json"))
+        self.assertEqual(json.loads(self.file("m.json").read_text())["filter"],
+                         json.loads(self.file("f.json").read_text())["filter"])
+
+    def test_a_filter_that_does_not_fit_the_options_is_refused(self):
+        self.fine("train", *self.family(), "--rounds", 1, "-o", self.file("f.json"))
+        self.refused(2, "--control-points 3, but the filter of", "fit", self.file("0.csv"), "--control-points", 3,
+                     "--filter", self.file("f.json"), "-o", self.file("m.ifsm"))
+        self.refused(3, "no.json", "fit", self.file("0.csv"), "--filter", "no.json", "-o", self.file("m.ifsm"))
+        self.refused(3, "a family has one dimension", "train", self.file("0.csv"), self.file("one.csv", "1\n2\n3\n"), "-o",
+                     self.file("f.json"))
+
+
 class Signals(Program):
     def interrupted(self, number, *arguments, after, **options):
         process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -288,8 +313,10 @@ class Signals(Program):
         self.assertIsNone(process.poll(), "it ended before the signal: " + str(process.returncode))
         sent = time.monotonic()
         process.send_signal(number)
-        _, errors = process.communicate(timeout=60)
-        return process.returncode, time.monotonic() - sent, errors
+        process.wait(timeout=60)  # communicate() would close its standard input, and may be faster than the signal
+        seconds = time.monotonic() - sent
+        _, errors = process.communicate()
+        return process.returncode, seconds, errors
 
     def test_a_signal_in_the_middle_of_a_fit_leaves_nothing(self):
         source = self.file("in.csv", table(rough_ring(30000)))

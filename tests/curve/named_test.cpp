@@ -284,4 +284,22 @@ TEST(DeCasteljau, GivesBackTheControlPointsOfABezierFromItsLeafPolygons) {
         }
 }
 
+TEST(Coast, IsContractiveWellConditionedAndExactInTheSumsOfItsColumns) {
+  const FilterPtr coast = named_filter("coast", Topology::joined, 0, 0);
+  EXPECT_EQ(coast->shape(), Shape(Topology::joined, 5, 2));
+  EXPECT_EQ(coast->contractivity(), Contractivity::proven);
+  EXPECT_LT(coast->condition(), 30);
+  const RowMatrix& r = coast->matrix();
+  // Multiples of 2^-20 below 2: sums are exact.
+  EXPECT_EQ(r.topRows(5).colwise().sum(), Eigen::RowVectorXd::Ones(9));
+  EXPECT_EQ(r, (r * 0x1p20).array().round().matrix() * 0x1p-20);
+  EXPECT_EQ(default_filter(0, 0)->matrix(), r);
+}
+
+TEST(Coast, RefusesShapesThatItIsNotTrainedFor) {
+  EXPECT_EQ(refusal([] { named_filter("coast", Topology::joined, 4, 0); }).argument(), "control_points");
+  EXPECT_EQ(refusal([] { named_filter("coast", Topology::square, 0, 0); }).argument(), "topology");
+  EXPECT_EQ(default_filter(4, 2)->matrix(), named_filter("casteljau", Topology::joined, 4, 2)->matrix());
+}
+
 }  // namespace

@@ -44,7 +44,9 @@ TEST(SparseFit, IsNeverWorseThanItsStartAtAnyBudgetAsked) {
 
 TEST(SparseFit, MakesFewDetailsSayMore) {
   const Points points = walk(513, 2, 3);
-  const FitResult result = fitted({{points, false}}, quick({32}));
+  FitOptions options = quick({32});
+  options.start = named_filter("casteljau", Topology::joined, 5, 2);
+  const FitResult result = fitted({{points, false}}, options);
   EXPECT_LT(result.budgets[0][0].fitted.rms, 0.95 * result.budgets[0][0].start.rms);
   EXPECT_EQ(result.budgets[0][0].details, 32 - 5);
 }
@@ -156,10 +158,55 @@ TEST(SparseFit, TakesCurvesOfEveryDimensionAndDegenerateOnes) {
   same.matrix().setConstant(3);
   EXPECT_EQ(fitted({{same, false}}, quick({8})).budgets[0][0].fitted.rms, 0);
   EXPECT_EQ(fitted({{walk(2, 2, 1), false}}, {}).reason, FitReason::start_best);
-  EXPECT_LT(fitted({{walk(6, 2, 1), false}}, {}).budgets[0][0].fitted.rms, 1e-12);
+  EXPECT_EQ(fitted({{walk(6, 2, 1), false}}, {}).budgets[0][0].budget,
+            5);  // a quarter, but the control points at least
+  EXPECT_EQ(fitted({{walk(100, 2, 1), false}}, {}).budgets[0][0].budget, 25);
+  EXPECT_LT(fitted({{walk(6, 2, 1), false}}, quick({9})).budgets[0][0].fitted.rms, 1e-12);  // all there are
   Points straight(2, 129);  // as many as places: equally spaced, a polynomial of degree 1
   for (Index k = 0; k < 129; ++k) straight.matrix().row(k) << static_cast<double>(k), 2.0 * static_cast<double>(k);
-  EXPECT_LT(fitted({{straight, false}}, quick({6})).budgets[0][0].fitted.rms, 1e-10);
+  // Coast does not reproduce straight lines, de Casteljau does: the better start is taken.
+  EXPECT_LT(fitted({{straight, false}}, quick({6})).budgets[0][0].start.rms, 1e-12 * diagonal(straight));
+}
+
+TEST(SparseFit, StartsFromCoastUnlessDeCasteljauIsNowhereWorse) {
+  const auto start_of = [](const Points& points) {
+    FitOptions options = quick({16, 40});
+    options.sparse_rounds = options.polish_rounds = 0;
+    return fitted({{points, false}}, options).filter->matrix();
+  };
+  const RowMatrix coast = named_filter("coast", Topology::joined, 5, 2)->matrix();
+  const RowMatrix casteljau = named_filter("casteljau", Topology::joined, 5, 2)->matrix();
+  EXPECT_EQ(start_of(walk(513, 2, 5)), coast);
+  Points smooth(2, 513);
+  for (Index k = 0; k < 513; ++k) {
+    const double t = static_cast<double>(k) / 512;
+    smooth.matrix().row(k) << t, t * t * t - t;
+  }
+  EXPECT_EQ(start_of(smooth), casteljau);
+}
+
+TEST(SparseFit, IsTheSameForCurvesOfAnySizeUpToPowersOfTwo) {
+  const Points points = loop(150, 2, 9);
+  const FitResult plain = fitted({{points, true}}, quick({20}));
+  for (const int exponent : {900, -950}) {  // squares of such coordinates are beyond doubles
+    const Points far = scaled(points, exponent);
+    const FitResult result = fitted({{far, true}}, quick({20}));
+    EXPECT_EQ(result.filter->matrix(), plain.filter->matrix());
+    const FitBudget &row = result.budgets[0][0], &expected = plain.budgets[0][0];
+    EXPECT_EQ(row.fitted.rms, std::scalbn(expected.fitted.rms, exponent));
+    EXPECT_EQ(row.start.max, std::scalbn(expected.start.max, exponent));
+    EXPECT_EQ(samples(*row.fitted.model), scaled(samples(*expected.fitted.model), exponent));
+    EXPECT_LT((samples(*result.models[0]).matrix() - far.matrix()).cwiseAbs().maxCoeff(), 1e-12 * diagonal(far));
+  }
+}
+
+// A budget that holds everything leaves errors of rounding alone, which may change: the other budget still counts.
+TEST(SparseFit, IsNotHeldBackByABudgetThatLeavesNoError) {
+  const Points points = walk(50, 2, 4);
+  const FitResult alone = fitted({{points, false}}, quick({20}));
+  const FitResult both = fitted({{points, false}}, quick({20, 65}));
+  EXPECT_LT(alone.budgets[0][0].fitted.rms, alone.budgets[0][0].start.rms);
+  EXPECT_LT(both.budgets[0][0].fitted.rms, 1.1 * alone.budgets[0][0].fitted.rms);
 }
 
 TEST(SparseFit, ToldProgressGrowsFromZeroToOne) {

@@ -57,7 +57,7 @@ TEST(Training, SaysWhatItsRatioIs) {
   double logarithms = 0;
   for (const FilterPtr& filter : {options.start, result.filter}) {
     Sketchbook book(curves, filter, std::vector<std::vector<Index>>(5, {16, 32}), Limits{}, watch);
-    logarithms = Sketchbook::judged(book.best(filter->matrix(), 12)) - logarithms;
+    logarithms = book.judged(book.best(filter->matrix(), 12)) - logarithms;
   }
   // Choices may be found better or worse from afresh: the training's own came from round to round.
   EXPECT_NEAR(result.ratio, std::exp(logarithms / 2 / 10), 0.02);

@@ -81,6 +81,20 @@ ifsm_status fit_with_polish(World& world, std::uint64_t* made, std::int32_t poli
 ifsm_status fit_small(World& world, std::uint64_t* made) { return fit_with_polish(world, made, -1); }
 ifsm_status fit_polished(World& world, std::uint64_t* made) { return fit_with_polish(world, made, 1); }
 
+ifsm_status train_small(World& world, std::uint64_t* made) {
+  const std::int64_t budget = 6;
+  ifsm_train_options options{};
+  options.struct_size = sizeof options;
+  options.budgets = &budget;
+  options.budget_count = 1;
+  options.control_points = 3;
+  options.iterations = options.rounds = 1;
+  ifsm_train_report report{};
+  report.struct_size = sizeof report;
+  const ifsm_curve few = {world.samples.data(), 9, 2, 0};
+  return ifsm_train(&few, 1, &options, as<ifsm_filter>(made), &report);
+}
+
 ifsm_status keep_with(World& world, std::uint64_t* made, std::int32_t resolve) {
   ifsm_keep_options options{};
   options.struct_size = sizeof options;
@@ -215,6 +229,7 @@ const Scenario scenarios[] = {
      drop_model},
     {"fit_sparse", "ifsm_fit_sparse", 1, 1, fit_small, drop_fit},
     {"fit_sparse_polished", "ifsm_fit_sparse", 1, 7, fit_polished, drop_fit},
+    {"train", "ifsm_train", 1, 7, train_small, drop_filter},
 };
 
 template <class T, class Read>
@@ -301,6 +316,11 @@ struct Tally {
   std::int64_t sites = 0, refused = 0, got_by = 0, leaked = 0, aborted = 0;
 };
 
+bool goes_through_ceres(const Scenario& scenario) {
+  const std::string function = scenario.function;
+  return function == "ifsm_fit_sparse" || function == "ifsm_train";
+}
+
 Tally fail_one_by_one(const Scenario& scenario, World& world) {
   Tally tally;
   for (std::int64_t which = 1;; which += scenario.every) {
@@ -327,7 +347,7 @@ Tally fail_one_by_one(const Scenario& scenario, World& world) {
     const int ending = WEXITSTATUS(status);
     if (ending == succeeded) return tally;
     ++tally.sites;
-    const bool through_ceres = std::string(scenario.function) == "ifsm_fit_sparse";
+    const bool through_ceres = goes_through_ceres(scenario);
     if (ending == refused)
       ++tally.refused;
     else if (ending == got_by)
@@ -352,7 +372,7 @@ TEST_P(OutOfMemory, IsAnErrorAndNothingElse) {
   // Problem::AddResidualBlock runs out of memory, it loses a block of its own. Those are the exceptions, and they are
   // held to the number of places that there are today, in a fit of one round.
   const std::int64_t rounds = std::string(GetParam().name) == "fit_sparse_polished" ? 2 : 1;
-  const bool through_ceres = std::string(GetParam().function) == "ifsm_fit_sparse";
+  const bool through_ceres = goes_through_ceres(GetParam());
   EXPECT_LE(tally.aborted, through_ceres ? 8 * rounds : 0);
   EXPECT_LE(tally.leaked, through_ceres ? 3 * rounds : 0);
   EXPECT_EQ(ifsm_fit_destroy(world.fit), IFSM_OK);

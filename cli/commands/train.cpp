@@ -1,0 +1,196 @@
+// ifsm train: curves of one kind in, one filter for them out.
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "commands/command.h"
+#include "curves.h"
+#include "failure.h"
+#include "files.h"
+#include "progress.h"
+#include "report.h"
+
+namespace cli {
+namespace {
+
+struct TrainArguments {
+  std::vector<std::string> inputs;
+  std::string output;
+  std::vector<std::string> columns;
+  bool closed = false;
+  std::vector<std::int64_t> budgets;
+  int control_points = 0;  // 0: the library's default, here and below
+  int maps = 0;
+  std::string filter;
+  int hold_out = 0;
+  int rounds = 0;
+  int iterations = 0;
+  double condition = 0;
+  int threads = 0;
+  Talk talk;
+};
+
+struct Family {
+  std::vector<Samples> samples;
+  std::vector<ifsm::Curve> curves() const {
+    std::vector<ifsm::Curve> curves;
+    for (const auto& one : samples) curves.push_back(one.curve());
+    return curves;
+  }
+};
+
+Family read_family(const TrainArguments& arguments) {
+  Family family;
+  for (const auto& path : arguments.inputs) {
+    family.samples.push_back(read_samples(path, arguments.columns, arguments.closed));
+    if (family.samples.back().dimension == family.samples.front().dimension) continue;
+    throw Failure(Exit::Input, input_name(path) + " has points of dimension " +
+                                   std::to_string(family.samples.back().dimension) + " and " +
+                                   input_name(arguments.inputs.front()) + " of " +
+                                   std::to_string(family.samples.front().dimension) +
+                                   "; a family has one dimension: choose columns with --columns.");
+  }
+  return family;
+}
+
+ifsm::Trained trained(const TrainArguments& arguments, const Family& family, Session& session) {
+  ifsm::Filter start;
+  if (!arguments.filter.empty()) {
+    start = start_filter(arguments.filter, arguments.control_points, arguments.maps);
+    require_joined(start, arguments.filter);
+  }
+  const Interrupt::Cancellable job(session.interrupt);
+  Progress progress("train", Progress::style_of_terminal(arguments.talk.quiet));
+  ifsm::TrainOptions options;
+  options.threads = arguments.threads;
+  options.start = arguments.filter.empty() ? nullptr : &start;
+  options.control_points = arguments.control_points;
+  options.maps = arguments.maps;
+  options.budgets = arguments.budgets;
+  options.hold_out = arguments.hold_out;
+  options.rounds = arguments.rounds;
+  options.iterations = arguments.iterations;
+  options.condition = arguments.condition;
+  options.cancel = &job.token();
+  options.progress = [&progress](double fraction, const std::string& stage) {
+    progress.update(fraction, stage);
+    return false;
+  };
+  auto result = ifsm::train(family.curves(), options);
+  job.confirm();
+  return result;
+}
+
+// A filter travels in a model that holds nothing else: a straight control polygon, no details.
+ifsm::Model carrier(const ifsm::Filter& filter) {
+  const int n = filter.describe().control_points;
+  std::vector<double> line;
+  for (int k = 0; k < n; ++k) line.push_back(static_cast<double>(k) / (n - 1));
+  return ifsm::Model::from_polygon(filter, ifsm::Curve(line, 1), 0);
+}
+
+const char* reason_name(std::int32_t reason) {
+  switch (reason) {
+    case IFSM_TRAIN_CONVERGED: return "converged";
+    case IFSM_TRAIN_ROUNDS: return "all rounds used";
+    case IFSM_TRAIN_START_BEST: return "nothing better than the start";
+  }
+  return "unknown";
+}
+
+Json report_of(const TrainArguments& arguments, const ifsm::Trained& result) {
+  const auto& report = result.report;
+  const auto info = result.filter.describe();
+  Json json{{"output", arguments.output},
+            {"control_points", info.control_points},
+            {"maps", info.maps},
+            {"condition", info.condition},
+            {"reason", reason_name(report.reason)},
+            {"trained", report.trained},
+            {"held_out", report.held_out},
+            {"sketches", report.sketches},
+            {"rounds", report.rounds},
+            {"iterations", report.iterations},
+            {"ratio", report.ratio}};
+  if (report.held_out > 0) json["held_out_ratio"] = report.held_out_ratio;
+  return json;
+}
+
+std::string in_words(const Json& report) {
+  const auto number = [&](const char* key) { return std::to_string(report[key].get<std::int64_t>()); };
+  std::string text = report["output"].get<std::string>() + ": n = " + number("control_points") +
+                     ", N = " + number("maps") + ", condition " + rounded(report["condition"]) + "\n" +
+                     number("rounds") + " rounds, " + number("iterations") + " iterations (" +
+                     report["reason"].get<std::string>() + ")\n" +
+                     "RMS of sketches, trained over start: " + rounded(report["ratio"]) + " on " + number("trained") +
+                     " curves, " + number("sketches") + " sketches";
+  if (report.contains("held_out_ratio"))
+    text += "; " + rounded(report["held_out_ratio"]) + " on " + number("held_out") + " curves held out";
+  return text + "\n";
+}
+
+// Families are large, and their tables alike.
+void tell_notes(const Family& family) {
+  constexpr std::size_t most = 3;
+  std::size_t count = 0;
+  for (const auto& samples : family.samples)
+    for (const auto& text : samples.notes)
+      if (++count <= most) note(text);
+  if (count > most) note("and " + std::to_string(count - most) + " more notes of this kind.");
+}
+
+void run(const TrainArguments& arguments, Session& session) {
+  refuse_json_beside_result(arguments.talk, arguments.output);
+  check_writable(arguments.output);
+  const Family family = read_family(arguments);
+  if (!arguments.talk.quiet) tell_notes(family);
+  const auto result = trained(arguments, family, session);
+  save_model(carrier(result.filter), ifsm::Format::json, arguments.output);
+  if (arguments.output == "-") return;
+  const Json report = report_of(arguments, result);
+  if (arguments.talk.json)
+    print(report);
+  else if (!arguments.talk.quiet)
+    print(in_words(report));
+}
+
+}  // namespace
+
+void add_train(CLI::App& program, Session& session) {
+  auto* command = program.add_subcommand("train", "Train one filter on curves of one kind");
+  auto arguments = std::make_shared<TrainArguments>();
+  auto& a = *arguments;
+  command->add_option("tables", a.inputs, "Tables of points, a curve each")->required();
+  command->add_option("-o,--output", a.output, "Filter to write, for --filter; - is standard output")->required();
+  command->add_option("--columns", a.columns, "Columns to read, by header or number from 1, e.g. x,y")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_flag("--closed", a.closed, "The curves are rings: the last point joins the first");
+  command
+      ->add_option("--budget", a.budgets,
+                   "Sizes of sketches to be good at, control points and details together (default 16,32,64 … up to an "
+                   "eighth of a curve's samples)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::PositiveNumber);
+  command->add_option("--control-points", a.control_points, "Points of a control polygon, n (default 5)")
+      ->check(CLI::Range(2, 16));
+  command->add_option("--maps", a.maps, "Pieces that a polygon is cut into, N (default 2)")->check(CLI::Range(2, 8));
+  command->add_option("--filter", a.filter, "Where to start: a name (default casteljau), or a file with a filter");
+  command->add_option("--hold-out", a.hold_out, "Do not train on every so-manyth curve, judge by it (default none)")
+      ->check(CLI::Range(2, 1 << 30));
+  command->add_option("--rounds", a.rounds, "At most so many (default 12)")->check(CLI::Range(1, 1000));
+  command->add_option("--iterations", a.iterations, "At most so many a round (default 10)")->check(CLI::Range(1, 1000));
+  command->add_option("--condition", a.condition, "Condition number of R, at most (default 30)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--threads", a.threads, "Threads to use (default: one a core); results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  add_talk(*command, a.talk);
+  command->footer(
+      "Examples:\n"
+      "  ifsm train ridges/*.csv --hold-out 5 -o ridges.json\n"
+      "  ifsm fit ridge.csv --filter ridges.json -o ridge.ifsm\n");
+  command->callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace cli
