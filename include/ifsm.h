@@ -424,8 +424,9 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_significance(ifsm_model model, int
 
 /* A new model with other control points.
  *
- * frame       ABSOLUTE: details stay as they are; NODE: details turn and scale with their polygons
- * points      borrowed: n × dimension doubles
+ * frame       ABSOLUTE: details stay as they are; NODE: they turn and scale as their own polygons do, so that texture
+ *             follows the curve; a part that moves as a whole is moved as a whole
+ * points      borrowed: n × dimension doubles; of a closed joined model the last one is the first
  * count       doubles in `points`
  * changed     [out] owned by the caller
  *

@@ -8,6 +8,8 @@
 namespace ifsm::core {
 namespace {
 
+constexpr double epsilon = 2.220446049250313e-16;
+
 Points next_line(const Filter& filter, int level, const Points& coarse, const Points& details) {
   Points fine(coarse.dimension(), filter.shape().line_length(level + 1));
   for (Index axis = 0; axis < coarse.dimension(); ++axis)
@@ -122,21 +124,59 @@ Points carried(const FrameWalk& from, const FrameWalk& to, const Growth& growth,
 
 SmallMatrix identity(Index dimension) { return SmallMatrix::Identity(dimension, dimension); }
 
-// Walks down the old and the new model together; from `level` on details are carried, above they are shared.
-ModelPtr rebuilt(const Model& model, Points polygon, int level, const Points* told) {
+// Walks down the old and the new model together; below `level` details are carried, above they are shared.
+ModelPtr rebuilt(const Model& model, int level, const Points& told) {
   ModelParts parts = model.parts();
   const Index per_node = model.shape().details_per_node();
   FrameWalk before(model.filter(), parts.polygon, identity(model.dimension()));
-  FrameWalk after(model.filter(), polygon, least_rotation(parts.polygon.matrix(), polygon.matrix()));
+  FrameWalk after(model.filter(), parts.polygon, identity(model.dimension()));
   Growth growth;
   for (int l = 0; l < model.levels(); ++l) {
     growth.follow(before, after);
     const Points& old = model.details(l);
-    auto fresh =
-        std::make_shared<Points>(told != nullptr && l == level ? told_absolutely(after, *told, per_node)
-                                                               : carried(before, after, growth, old, per_node));
+    auto fresh = std::make_shared<Points>(l == level ? told_absolutely(after, told, per_node)
+                                                     : carried(before, after, growth, old, per_node));
     before.descend(old);
     after.descend(*fresh);
+    parts.details[static_cast<std::size_t>(l)] = std::move(fresh);
+  }
+  return std::make_shared<Model>(std::move(parts));
+}
+
+double largest(const Points& points) { return points.matrix().cwiseAbs().maxCoeff(); }
+
+// Does the matrix take one polygon to the other, up to a translation and rounding? A part that moved as a whole then
+// keeps its parent's turn, which is better known than the turn of a small polygon.
+bool maps_onto(const SmallMatrix& matrix, const PolygonView& from, const PolygonView& to, double rounding) {
+  const auto centred = [](const PolygonView& p) { return Eigen::MatrixXd(p.rowwise() - p.colwise().mean()); };
+  return (centred(from) * matrix.transpose() - centred(to)).cwiseAbs().maxCoeff() <= rounding;
+}
+
+// Walks down the old and the new model together, every node's details turned and scaled as its own polygon is. (Carried
+// from frame to frame they would keep what they are told as, but frames are handed down from node to node: where a
+// polygon is little like what its parent predicts, a small move of the root turns them far.)
+ModelPtr followed(const Model& model, Points polygon) {
+  ModelParts parts = model.parts();
+  const Shape& shape = model.shape();
+  const int n = shape.control_points();
+  Points before = parts.polygon, after = polygon;
+  std::vector<SmallMatrix> turns{identity(model.dimension())};
+  for (int l = 0; l < model.levels(); ++l) {
+    const Points& old = model.details(l);
+    auto fresh = std::make_shared<Points>(old);
+    const double rounding = 16 * epsilon * (largest(before) + largest(after));  // of n products, a level's worth
+    std::vector<SmallMatrix> own;
+    for (Index node = 0; node < shape.nodes(l); ++node) {
+      const auto from = before.polygon(node * shape.polygon_step(), n),
+                 to = after.polygon(node * shape.polygon_step(), n);
+      const SmallMatrix& handed = turns[static_cast<std::size_t>(l == 0 ? 0 : node / shape.maps())];
+      own.push_back(maps_onto(handed, from, to, rounding) ? handed : turn(from, to));
+      if (own.back() != identity(model.dimension()))
+        transform_node(old, *fresh, node, shape.details_per_node(), own.back());
+    }
+    turns = std::move(own);
+    before = next_line(model.filter(), l, before, old);
+    after = next_line(model.filter(), l, after, *fresh);
     parts.details[static_cast<std::size_t>(l)] = std::move(fresh);
   }
   parts.polygon = std::move(polygon);
@@ -184,7 +224,7 @@ ModelPtr with_control_points(const Model& model, const Points& polygon, Frame fr
   if (model.closed() && model.shape().joined() && polygon.matrix().row(0) != polygon.matrix().bottomRows(1))
     throw Error(Status::shape, "points",
                 "A closed joined curve ends where it begins; give its first and last control point the same place.");
-  if (frame == Frame::node) return rebuilt(model, centred, -1, nullptr);
+  if (frame == Frame::node) return followed(model, centred);
   ModelParts parts = model.parts();
   parts.polygon = centred;
   return std::make_shared<Model>(std::move(parts));
@@ -194,7 +234,7 @@ ModelPtr with_details(const Model& model, int level, Points vectors, Frame frame
   in_range(level, 0, model.levels() - 1, "level");
   require_finite_points(vectors, "vectors");
   require_count(vectors, model.shape().detail_count(level), model.dimension(), "vectors");
-  if (frame == Frame::node) return rebuilt(model, model.parts().polygon, level, &vectors);
+  if (frame == Frame::node) return rebuilt(model, level, vectors);
   ModelParts parts = model.parts();
   parts.details[static_cast<std::size_t>(level)] = std::make_shared<Points>(std::move(vectors));
   return std::make_shared<Model>(std::move(parts));

@@ -15,7 +15,8 @@ enum class Frame : std::int32_t { absolute = 0, node = 1 };
 // Detail vectors of a level, told in a frame.
 Points details(const Model& model, int level, Frame frame);
 
-// Absolute: details stay. Node: they turn and scale with their polygons. `polygon` in the samples' coordinates.
+// Absolute: details stay. Node: they turn and scale with their polygons: each node's by turn(P_θ → P'_θ). `polygon` in
+// the samples' coordinates.
 ModelPtr with_control_points(const Model& model, const Points& polygon, Frame frame);
 
 // Other details at one level; the other levels stay as told in the same frame.
