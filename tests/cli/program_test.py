@@ -197,6 +197,154 @@ class Reports(Program):
             self.assertIn("Examples", self.fine(command, "--help"))
 
 
+class Gaps(Program):
+    points = [(k, k * k % 7) for k in range(12)]
+
+    def log(self, missing):
+        rows = [("nan", "") if k in missing else point for k, point in enumerate(self.points)]
+        return self.file("log.csv", "x,y\n" + "".join(f"{x},{y}\n" for x, y in rows))
+
+    def samples(self, path):
+        return numbers(self.fine("synth", self.file(path)))
+
+    def test_are_refused_with_both_ways_out(self):
+        self.refused(3, "log.csv, line 5, column 1 (x): 'nan' is a gap; cut the curve there with --gaps split, go "
+                     "straight across with --gaps bridge, or else ", "fit", self.log([3]), "-o", self.file("m.ifsm"))
+        self.refused(2, "neither split nor bridge", "fit", self.log([3]), "--gaps", "skip", "-o", self.file("m.ifsm"))
+
+    def test_split_a_curve_into_models(self):
+        result = run("fit", self.log([3, 4, 8]), "--gaps", "split", "--no-fit", "--json", "-o", self.file("p-%d.ifsm"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 gaps, 3 pieces", result.stderr)
+        self.assertEqual([model["samples"] for model in json.loads(result.stdout)["models"]], [3, 3, 3])
+        for name, piece in (("p-1.ifsm", self.points[:3]), ("p-2.ifsm", self.points[5:8]), ("p-3.ifsm", self.points[9:])):
+            self.assertLess(largest_gap(piece, self.samples(name)), 1e-12)
+
+    def test_bridged_stay_one_model(self):
+        result = run("fit", self.log([0, 3, 4, 8]), "--gaps", "bridge", "--no-fit", "-o", self.file("m.ifsm"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 gaps bridged with 3 points", result.stderr)
+        self.assertIn("1 point of gaps at the ends cut off", result.stderr)
+        back = self.samples("m.ifsm")
+        self.assertEqual(len(back), 11)
+        self.assertLess(math.dist(back[2], (3, self.points[2][1] + (self.points[5][1] - self.points[2][1]) / 3)), 1e-12)
+
+    def test_several_models_never_share_or_replace_a_file_by_accident(self):
+        source, target = self.log([4]), self.file("p-%d.ifsm")
+        split = ("fit", source, "--gaps", "split", "--no-fit", "-q")
+        before = self.names()
+        self.refused(2, ["names one file for 2 curves", "log-%d.ifsm"], *split, "-o", self.file("m.ifsm"))
+        self.refused(2, "names one file", *split, "-o", "-")
+        self.file("p-2.ifsm", "mine")
+        self.refused(4, ["p-2.ifsm", "--overwrite"], *split, "-o", target)
+        self.assertEqual(self.names(), before + ["p-2.ifsm"])
+        self.assertEqual(self.file("p-2.ifsm").read_text(), "mine")
+        self.fine(*split, "--overwrite", "-o", target)
+        self.fine(*split, "-o", self.folder)
+        self.assertEqual(self.names(), sorted(before + ["log-1.ifsm", "log-2.ifsm", "p-1.ifsm", "p-2.ifsm"]))
+
+    def test_a_ring_with_gaps_falls_into_open_pieces(self):
+        result = run("fit", self.log([2, 7]), "--closed", "--gaps", "split", "--no-fit", "-o", self.folder)
+        self.assertIn("its pieces are open", result.stderr)
+        self.assertLess(largest_gap(self.samples("log-2.ifsm"), self.points[8:] + self.points[:2]), 1e-12)
+        self.assertIn("open", result.stdout)
+
+
+ISLANDS = pathlib.Path(__file__).parents[2] / "data" / "islands" / "islands.geojson"
+
+
+class GeoJson(Program):
+    def rings(self):
+        features = json.loads(ISLANDS.read_text())["features"]
+        return [ring for feature in features for polygon in feature["geometry"]["coordinates"] for ring in polygon]
+
+    def test_every_ring_becomes_a_model_that_gives_it_back(self):
+        report = json.loads(self.fine("fit", ISLANDS, "--no-fit", "--json", "-q", "-o", self.folder))
+        rings = self.rings()
+        self.assertEqual(len(report["models"]), len(rings))
+        self.assertEqual(report["models"][0]["curve"], "Faroe Islands")
+        self.assertEqual(self.names()[0], "islands-01-Faroe_Islands.ifsm")
+        self.assertEqual(len(self.names()), len(rings))
+        for model, ring in list(zip(report["models"], rings))[::6]:
+            self.assertTrue(model["closed"])
+            self.assertLess(largest_gap(numbers(self.fine("synth", model["output"])), ring[:-1]), 1e-12)
+
+    def test_projected_and_back(self):
+        report = json.loads(self.fine("fit", ISLANDS, "--project", "--no-fit", "--json", "-q", "-o", self.file("i-%d")))
+        for model, ring in list(zip(report["models"], self.rings()))[::6]:
+            middle = "{longitude},{latitude}".format(**model["middle"])
+            told = json.loads(self.fine("synth", model["output"], "--geojson", "--unproject=" + middle))
+            self.assertEqual(told["geometry"]["type"], "Polygon")
+            self.assertLess(largest_gap(told["geometry"]["coordinates"][0], ring), 1e-12)
+            # Somewhere near the true size: a degree of latitude is 111 km.
+            heights = [y for _, y in ring]
+            diagonal = json.loads(self.fine("info", model["output"], "--json"))["diagonal"]
+            self.assertGreater(diagonal, 111 * (max(heights) - min(heights)))
+
+    def test_one_plane_for_all_keeps_them_in_their_places(self):
+        faroes = self.file("f.geojson", json.dumps(json.loads(ISLANDS.read_text())["features"][0]))
+        self.fine("fit", faroes, "--project=-6.9,61.9", "--no-fit", "-q", "-o", self.file("f-%02d.json"))
+        points = numbers(self.fine("synth", self.file("f-05.json")))
+        lon, lat = self.rings()[4][0]
+        self.assertAlmostEqual(points[0][0], 111.195080 * (lon + 6.9) * math.cos(math.radians(61.9)), places=4)
+        self.assertAlmostEqual(points[0][1], 111.195080 * (lat - 61.9), places=4)
+
+    def test_altitudes_are_metres_beside_kilometres(self):
+        line = {"type": "LineString", "coordinates": [[10, 60, 100], [10.1, 60.1, 250], [10.2, 60, 300]]}
+        source, model = self.file("track.geojson", json.dumps(line)), self.file("m.ifsm")
+        self.fine("fit", source, "--project", "--no-fit", "-o", model)
+        for altitude, point in zip((0.1, 0.25, 0.3), numbers(self.fine("synth", model))):
+            self.assertAlmostEqual(point[2], altitude)
+        told = json.loads(self.fine("synth", model, "--geojson", "--unproject", "10.1,60.05"))
+        self.assertLess(largest_gap(told["geometry"]["coordinates"], line["coordinates"]), 1e-9)
+        self.fine("fit", source, "--flat", "--no-fit", "-o", model)
+        self.assertEqual(json.loads(self.fine("info", model, "--json"))["dimension"], 2)
+
+    def test_across_the_180th_meridian(self):
+        line = {"type": "LineString", "coordinates": [[179, 1], [-179, 2], [-178, 1]]}
+        self.fine("fit", self.file("d.geojson", json.dumps(line)), "--project", "--no-fit", "-o", self.file("m.ifsm"))
+        points = numbers(self.fine("synth", self.file("m.ifsm")))
+        self.assertLess(points[2][0] - points[0][0], 3 * 111.2)
+        self.assertGreater(points[1][0], points[0][0])
+
+    def test_tables_are_projected_too(self):
+        source = self.file("t.csv", "lat,lon\n60,10\n60.1,10.1\n60,10.2\n")
+        self.fine("fit", "--project", source, "--columns", "lon,lat", "--no-fit", "-o", self.file("m.ifsm"))
+        self.assertAlmostEqual(numbers(self.fine("synth", self.file("m.ifsm")))[1][0], 0, places=9)
+        self.refused(3, ["point 1 is 200, 100", "in that order"], "fit", self.file("xy.csv", "200,100\n0,0\n"),
+                     "--project", "-o", self.file("x.ifsm"))
+
+    def test_misuse(self):
+        target = self.file("m.ifsm")
+        ring = {"type": "Polygon", "coordinates": [[[0, -70], [120, -70], [-120, -70], [0, -70]]]}
+        self.refused(3, "runs round a pole", "fit", self.file("a.geojson", json.dumps(ring)), "--project", "-o", target)
+        long = {"type": "LineString", "coordinates": [[0, 10], [0, 80]]}
+        self.refused(3, "wrong by more than a factor of two", "fit", self.file("l.geojson", json.dumps(long)),
+                     "--project", "-o", target)
+        self.refused(2, "no columns", "fit", ISLANDS, "--columns", "lon,lat", "-o", target)
+        self.refused(2, ["names one file for 20 curves", "islands-%d.ifsm"], "fit", ISLANDS, "-o", target)
+        self.refused(2, "'x' is no longitude and latitude", "fit", ISLANDS, "--project=x", "-o", target)
+        self.refused(3, "a Point is no curve", "fit", self.file("p.geojson", '{"type": "Point", "coordinates": [1, 2]}'),
+                     "-o", target)
+        self.assertFalse(target.exists())
+        source = self.file("one.csv", "1\n2\n4\n")
+        self.fine("fit", source, "--no-fit", "-q", "-o", target)
+        self.refused(2, "2 or 3 coordinates", "synth", target, "--geojson")
+        self.refused(2, "two columns", "fit", source, "--project", "-o", self.file("n.ifsm"))
+
+    def test_a_signal_leaves_none_of_several(self):
+        features = [{"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [rough_ring(9000)]}}] * 40
+        source = self.file("many.geojson", json.dumps({"type": "FeatureCollection", "features": features}))
+        process = subprocess.Popen([PROGRAM, "fit", source, "-q", "-o", self.file("m-%d.ifsm")],
+                                   stderr=subprocess.PIPE, preexec_fn=default_signals)
+        time.sleep(1.5)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(self.names(), ["many.geojson"])
+
+
 class Misuse(Program):
     def test_usage(self):
         source, target, model = self.file("in.csv", "x,y\n0,0\n1,1\n2,0\n"), self.file("m.ifsm"), self.model()
@@ -260,7 +408,9 @@ class Output(Program):
         source = self.file("in.csv", table(rough_ring(60)))
         before = self.names()
         self.refused(4, "cannot be written", "fit", source, "--no-fit", "-q", "-o", self.folder / "missing" / "m.ifsm")
-        self.refused(4, "is a directory", "fit", source, "--no-fit", "-q", "-o", self.folder)
+        self.refused(4, "is a directory", "synth", self.model(), "-o", self.folder)
+        before = self.names()
+        self.refused(4, "cannot be written", "fit", source, "--no-fit", "-q", "-o", str(self.folder / "missing") + "/")
         self.refused(4, "cannot be written", "fit", source, "--no-fit", "-q", "-o", "/dev/full")
         self.assertEqual(self.names(), before)
 
