@@ -46,7 +46,13 @@ class Preparation {
     keep(std::move(samples));
   }
 
-  Curves curves() && { return std::move(curves_); }
+  Curves curves() && {
+    place_ = source_;
+    if (stretched_ > 0)
+      say(counted(stretched_, "curve") + " with east-west lengths wrong by up to " +
+          rounded((worst_stretch_ - 1) * 100, 2) + " % at the ends of the plane");
+    return std::move(curves_);
+  }
 
  private:
   void say(const std::string& what) { curves_.notes.push_back(place_ + ": " + what + "."); }
@@ -113,12 +119,10 @@ class Preparation {
     const double wrong = stretch(samples.points, d, middle);
     if (wrong > most_stretch)
       refuse("on a plane about latitude " + rounded(middle.latitude) +
-             " its east-west lengths would be wrong by more than a factor of two; " +
-             (reading_.project->middle ? "--project without a middle gives each curve a plane of its own"
-                                       : "project it with another tool, and leave --project out"));
-    if (wrong > told_stretch)
-      say("on the plane about latitude " + rounded(middle.latitude) + " its east-west lengths are wrong by up to " +
-          rounded((wrong - 1) * 100, 2) + " %");
+             " its east-west lengths would be wrong by more than a factor of two; give it a middle of its own, or "
+             "project it with another tool and leave --project out");
+    if (wrong > told_stretch) ++stretched_;
+    worst_stretch_ = std::max(worst_stretch_, wrong);
     project(samples.points, d, middle);
     samples.middle = middle;
   }
@@ -127,6 +131,8 @@ class Preparation {
   std::string place_;  // of the curve that is prepared
   const Reading& reading_;
   Curves curves_;
+  std::size_t stretched_ = 0;
+  double worst_stretch_ = 1;
 };
 
 Samples samples_of(GeoCurve curve, const Reading& reading) {

@@ -107,9 +107,9 @@ std::vector<FittedModel> fitted_models(const std::vector<Samples>& curves, const
   Fitting fitting(curves, settings, quiet);
   std::vector<FittedModel> models;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    const auto& place = curves[i].place;
-    const auto number = curves.size() > 1 ? source + ", curve " + std::to_string(i + 1) : "";
-    const auto curve = number.empty() || place.empty() ? number : number + " (" + place + ")";
+    std::string curve;
+    if (curves.size() > 1) curve.append(source).append(", curve ").append(std::to_string(i + 1));
+    if (!curve.empty() && !curves[i].place.empty()) curve.append(" (").append(curves[i].place).append(")");
     models.push_back(naming(curve, [&] { return fitting.model_of(i, job.token()); }));
     job.confirm();
   }
