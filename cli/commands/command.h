@@ -22,6 +22,7 @@ void add_fit(CLI::App& program, Session& session);
 void add_info(CLI::App& program, Session& session);
 void add_synth(CLI::App& program, Session& session);
 void add_eval(CLI::App& program, Session& session);
+void add_plot(CLI::App& program, Session& session);
 
 // ---- options that several commands share
 

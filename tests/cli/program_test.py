@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "ifsm"
 
@@ -193,7 +194,7 @@ class Reports(Program):
     def test_version_and_help(self):
         self.assertRegex(self.fine("--version"), r"^ifsm \d+\.\d+\.\d+\n$")
         self.assertIn("Exit codes", self.fine("--help"))
-        for command in ("fit", "info", "synth", "eval"):
+        for command in ("fit", "info", "synth", "eval", "plot"):
             self.assertIn("Examples", self.fine(command, "--help"))
 
 
@@ -248,6 +249,100 @@ class Gaps(Program):
         self.assertIn("its pieces are open", result.stderr)
         self.assertLess(largest_gap(self.samples("log-2.ifsm"), self.points[8:] + self.points[:2]), 1e-12)
         self.assertIn("open", result.stdout)
+
+
+def frames(svg):
+    """The closed rectangles that are only stroked: one a panel, and one a colour bar."""
+    found = 0
+    for path in ElementTree.parse(svg).iter("{http://www.w3.org/2000/svg}path"):
+        words = path.get("d", "").split()
+        rectangle = len(words) == 15 and words[1:3] == words[13:15] and (words[2], words[4]) == (words[5], words[7])
+        found += rectangle and "fill:none" in path.get("style", "")
+    return found
+
+
+def size_of_png(path):
+    content = path.read_bytes()
+    assert content[:8] == b"\x89PNG\r\n\x1a\n" and content[-8:-4] == b"IEND", content[:16]
+    return int.from_bytes(content[16:20], "big"), int.from_bytes(content[20:24], "big")
+
+
+class Plot(Program):
+    def test_the_overview_of_a_model(self):
+        svg, png = self.file("p.svg"), self.file("p.png")
+        report = json.loads(self.fine("plot", self.model(), "--json", "-q", "-o", svg))
+        names = [panel["panel"] for panel in report["panels"]]
+        self.assertEqual(names, ["polygon", "attractor", "scalogram", "levels", "budgets", "residuals"])
+        self.assertEqual(frames(svg), len(names) + 1)  # the scalogram's colour bar
+        self.assertEqual(ElementTree.parse(svg).find("{http://www.w3.org/2000/svg}title").text, "ring.ifsm")
+        self.assertIn("polygon, attractor", self.fine("plot", self.model(), "-o", png))
+        self.assertEqual(size_of_png(png), (report["width"], report["height"]))
+
+    def test_sizes_and_titles(self):
+        png = self.file("p.png")
+        for size, expected in ((["--width", 640, "--height", 200], (640, 200)), (["--width", 304], (304, 278))):
+            self.fine("plot", self.model(), "--show", "curve", *size, "--title", "A title " * 60, "-q", "-o", png)
+            self.assertEqual(size_of_png(png), expected)
+
+    def test_the_numbers_are_those_of_the_other_commands(self):
+        model, picture = self.model(), self.file("p.svg")
+        report = json.loads(self.fine("plot", model, "--show", "samples,polygon,levels,budgets,residuals", "--details", 20,
+                                      "--json", "-q", "-o", picture))
+        shown = {panel["panel"]: panel["numbers"] for panel in report["panels"]}
+        self.assertEqual([tuple(p) for p in shown["samples"][0]["points"]], numbers(self.fine("synth", model)))
+        self.assertEqual([tuple(p) for p in shown["polygon"]["points"]], numbers(self.fine("synth", model, "--level", 0)))
+        out = self.file("out.csv")
+        for row in shown["levels"][1:3]:
+            told = json.loads(self.fine("synth", model, "--levels", row["levels"], "--resolve=values", "--json", "-o", out))
+            self.assertEqual((told["rms"], told["max"]), (row["rms"], row["max"]))
+        for row in shown["budgets"][:2]:
+            told = json.loads(self.fine("synth", model, "--details", row["budget"] - 5, "--resolve", "--json", "-o", out))
+            self.assertEqual((told["rms"], told["max"]), (row["rms"], row["max"]))
+        told = json.loads(self.fine("synth", model, "--details", 20, "--resolve", "--json", "-o", out))
+        self.assertEqual(shown["residuals"]["rms"], told["rms"])
+        self.assertEqual(len(shown["residuals"]["distances"]), 300)
+
+    def test_curves_alone(self):
+        svg = self.file("p.svg")
+        report = json.loads(self.fine("plot", ISLANDS, "--project", "--json", "-q", "-o", svg))
+        self.assertEqual([panel["panel"] for panel in report["panels"]], ["samples"])
+        self.assertEqual(len(report["panels"][0]["numbers"]), 20)
+        faroes, verde = (report["panels"][0]["numbers"][k]["points"][0] for k in (0, 19))
+        self.assertGreater(math.dist(faroes, verde), 5000)  # one plane for all
+        self.assertEqual(frames(svg), 1)
+        piped = subprocess.run([PROGRAM, "plot", "-", "--format", "png", "-o", "-"], input=table(rough_ring(50)).encode(),
+                               capture_output=True)
+        self.assertEqual(piped.stdout[1:4], b"PNG")
+        self.assertEqual(piped.stderr, b"")
+
+    def test_residuals_of_given_samples(self):
+        model, source = self.model(), self.file("r.csv", table([(x + 0.5, y) for x, y in rough_ring(300)]))
+        show = ("plot", model, "--show", "residuals", "-q", "-o", self.file("p.svg"))
+        report = json.loads(self.fine(*show, "--samples-file", source, "--closed", "--json"))
+        self.assertAlmostEqual(report["panels"][0]["numbers"]["rms"], 0.5)
+        self.refused(3, ["r.csv holds 2 points", "the model 300"], *show, "--samples-file", self.file("r.csv", "0,0\n1,1\n"))
+
+    def test_long_curves_make_no_huge_files(self):
+        points = [(math.sin(k * 0.7) * k, math.cos(k * 1.3) * k) for k in range(100000)]
+        svg = self.file("p.svg")
+        self.fine("fit", self.file("long.csv", table(points)), "--no-fit", "-q", "-o", self.file("long.ifsm"))
+        self.fine("plot", self.file("long.ifsm"), "--show", "scalogram", "-q", "-o", svg)
+        self.assertLess(svg.stat().st_size, 2_500_000)
+        graph = self.file("graph.csv", table([(y,) for _, y in points], "y"))
+        self.fine("plot", graph, "-q", "-o", svg)
+        self.assertLess(svg.stat().st_size, 500_000)
+
+    def test_misuse(self):
+        model, svg = self.model(), self.file("p.svg")
+        self.refused(2, ["'levls' is none of", "scalogram"], "plot", model, "--show", "levls", "-o", svg)
+        self.refused(2, ["neither .svg nor .png", "--format"], "plot", model, "-o", self.file("p.gif"))
+        self.refused(2, ["needs a model", "ifsm fit"], "plot", self.folder / "ring.csv", "--show", "levels", "-o", svg)
+        self.refused(2, "leave it out", "plot", self.folder / "ring.csv", "--samples-file", "x.csv", "-o", svg)
+        self.refused(2, "--width", "plot", model, "--width", 5, "-o", svg)
+        self.refused(2, "standard output", "plot", model, "--format", "svg", "--json", "-o", "-")
+        self.refused(4, "cannot be written", "plot", model, "-o", self.folder / "missing" / "p.svg")
+        self.refused(3, "is empty", "plot", self.file("e.csv", ""), "-o", svg)
+        self.assertFalse(svg.exists())
 
 
 ISLANDS = pathlib.Path(__file__).parents[2] / "data" / "islands" / "islands.geojson"
