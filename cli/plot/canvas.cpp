@@ -19,6 +19,10 @@ constexpr double grain = 1.0 / 16;
 // Not the first byte of a character of UTF-8.
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
+// Points of a stroke: cairo's time for pixels grows with the crossings of a stroke with itself, so long lines are drawn
+// in pieces. An SVG is drawn by others; its pieces are longer, as each costs bytes.
+constexpr std::size_t most_in_pixels = 32, most_in_svg = 512;
+
 cairo_status_t append(void* target, const unsigned char* data, unsigned int length) {
   static_cast<std::string*>(target)->append(reinterpret_cast<const char*>(data), length);
   return CAIRO_STATUS_SUCCESS;
@@ -151,20 +155,31 @@ std::string Canvas::shortened(std::string words, const Font& font, double width)
   return words;
 }
 
-void Canvas::trace(const std::vector<Point>& points) {
-  cairo_new_path(context_.get());
+std::vector<Point> Canvas::seen(const std::vector<Point>& points) const {
+  auto line = thinned(points, visible / paper_.scale);
+  if (format_ == Format::Png) return line;
   const double unit = grain / paper_.scale;
-  const auto placed = [&](double length) { return format_ == Format::Svg ? std::round(length / unit) * unit : length; };
-  for (const auto& point : thinned(points, visible / paper_.scale))
-    cairo_line_to(context_.get(), placed(point.x), placed(point.y));
+  for (auto& [x, y] : line) x = std::round(x / unit) * unit, y = std::round(y / unit) * unit;
+  return line;
+}
+
+void Canvas::trace(std::span<const Point> points) {
+  cairo_new_path(context_.get());
+  for (const auto& point : points) cairo_line_to(context_.get(), point.x, point.y);
 }
 
 void Canvas::polyline(const std::vector<Point>& points, const Stroke& stroke) {
-  trace(points);
+  const auto line = seen(points);
   colour(stroke.colour);
   cairo_set_line_width(context_.get(), stroke.width);
   cairo_set_dash(context_.get(), stroke.dashes.data(), static_cast<int>(stroke.dashes.size()), 0);
-  cairo_stroke(context_.get());
+  // The pieces share a step, so that it joins them.
+  const std::size_t most = format_ == Format::Png ? most_in_pixels : most_in_svg;
+  const std::size_t piece = stroke.dashes.empty() ? most : line.size();
+  for (std::size_t first = 0; first < line.size(); first += piece) {
+    trace(std::span(line).subspan(first, std::min(piece + 2, line.size() - first)));
+    cairo_stroke(context_.get());
+  }
   cairo_set_dash(context_.get(), nullptr, 0, 0);
   const auto& at = points.empty() ? Point{} : points.front();
   const auto is_there = [&](const Point& point) { return point.x == at.x && point.y == at.y; };
@@ -174,7 +189,7 @@ void Canvas::polyline(const std::vector<Point>& points, const Stroke& stroke) {
 }
 
 void Canvas::polygon(const std::vector<Point>& points, Colour fill) {
-  trace(points);
+  trace(seen(points));
   cairo_close_path(context_.get());
   colour(fill);
   cairo_fill(context_.get());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -87,7 +88,8 @@ class Canvas {
   std::vector<std::string> broken(const std::string& word, const Font& font, double width);
   void select(const Font& font);
   Point start_of(const std::string& words, Point at, const Font& font, Align along);
-  void trace(const std::vector<Point>& points);
+  std::vector<Point> seen(const std::vector<Point>& points) const;
+  void trace(std::span<const Point> points);
   void colour(Colour colour);
 
   std::string png();
