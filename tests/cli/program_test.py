@@ -533,7 +533,8 @@ class Signals(Program):
         self.assertIsNone(process.poll(), "it ended before the signal: " + str(process.returncode))
         sent = time.monotonic()
         process.send_signal(number)
-        _, errors = process.communicate(timeout=60)
+        process.wait(timeout=60)  # communicate() would close its standard input first, and that end might be seen first
+        _, errors = process.communicate()
         return process.returncode, time.monotonic() - sent, errors
 
     def test_a_signal_in_the_middle_of_a_fit_leaves_nothing(self):
