@@ -73,7 +73,7 @@ RC_GTEST_PROP(Targets, NoNameLeavesItsFolder, (const std::string& name)) {
   RC_ASSERT(file.find('/') == file.npos);
   RC_ASSERT(file.find('\0') == file.npos);
   RC_ASSERT(file.size() <= 60u);
-  RC_ASSERT(file.empty() || (file.front() != '.' && file.front() != '-'));
+  if (!file.empty()) RC_ASSERT(file.front() != '.' && file.front() != '-');
 }
 
 }  // namespace
