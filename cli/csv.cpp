@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <system_error>
@@ -138,14 +139,25 @@ std::string decimal_comma_advice(std::string_view cell) {
          "turn every , between digits into . when the columns are kept apart by ; or tabs";
 }
 
-// What is wrong with a cell, and what to do.
+bool is_gap(std::string_view cell) {
+  double value = 0;
+  convert(cell, value);
+  return cell.empty() || (is_number(cell) && std::isnan(value));
+}
+
+std::string gap_diagnosis(std::string_view cell, const std::string& advice) {
+  return (cell.empty() ? "is empty" : quoted(cell) + " is a gap") + "; " +
+         (advice.empty() ? "" : advice + ", or else ") +
+         "fill the cell in, remove the line, or leave the column out with --columns";
+}
+
+// What is wrong with a cell that is no gap, and what to do.
 std::string diagnosis(std::string_view cell, char separator) {
   double value = 0;
   const auto result = convert(cell, value);
-  if (cell.empty()) return "is empty; fill the cell in, remove the line, or leave the column out with --columns";
   if (is_number(cell) && result.ec == std::errc::result_out_of_range)
     return quoted(cell) + " is beyond the range of double precision; use another unit";
-  if (is_number(cell)) return quoted(cell) + " is not finite; remove the line, or fill the gap in before";
+  if (is_number(cell)) return quoted(cell) + " is not finite; correct it, or remove the line";
   if (has_decimal_comma(cell)) return decimal_comma_advice(cell);
   if (separator == ',' && cell.find_first_of(blanks) != cell.npos)
     return quoted(cell) +
@@ -158,7 +170,8 @@ std::string diagnosis(std::string_view cell, char separator) {
 
 class Reader {
  public:
-  Reader(std::string_view text, const std::string& source) : source_(source), lines_(content(text)) {
+  Reader(std::string_view text, const std::string& source, const TableRules& rules)
+      : source_(source), rules_(rules), lines_(content(text)) {
     if (lines_.empty()) fail("holds no numbers: only blank lines or comments");
     separator_ = separator_of(lines_.front().text);
     const auto first = split(lines_.front().text, separator_);
@@ -166,8 +179,8 @@ class Reader {
     if (is_header(first)) names_ = first;
   }
 
-  Table read(const std::vector<std::string>& selection) const {
-    const auto taken = selection.empty() ? all_columns() : chosen(selection);
+  Table read() const {
+    const auto taken = rules_.columns.empty() ? all_columns() : chosen(rules_.columns);
     Table table;
     table.columns = taken.size();
     if (!names_.empty())
@@ -232,11 +245,15 @@ class Reader {
     double value = 0;
     const auto result = convert(cell, value);
     if (result.ec == std::errc() && result.ptr == cell.data() + cell.size() && std::isfinite(value)) return value;
+    const bool gap = is_gap(cell);
+    if (gap && rules_.gaps) return std::numeric_limits<double>::quiet_NaN();
     const auto name = names_.empty() || names_[column].empty() ? "" : " (" + names_[column] + ")";
-    fail_at(line, ", column " + std::to_string(column + 1) + name + ": " + diagnosis(cell, separator_));
+    fail_at(line, ", column " + std::to_string(column + 1) + name + ": " +
+                      (gap ? gap_diagnosis(cell, rules_.gap_advice) : diagnosis(cell, separator_)));
   }
 
   const std::string& source_;
+  const TableRules& rules_;
   std::vector<Line> lines_;
   char separator_ = blank_separated;
   std::size_t width_ = 0;
@@ -256,13 +273,13 @@ std::optional<std::string> not_text(std::string_view bytes) {
 
 }  // namespace
 
-Table parse_csv(std::string_view text, const std::string& source, const std::vector<std::string>& selection) {
+Table parse_csv(std::string_view text, const std::string& source, const TableRules& rules) {
   if (const auto reason = not_text(text))
     throw Failure(Exit::Input, source + " " + *reason +
                                    ". Expected: lines of numbers kept apart by commas, "
                                    "semicolons, tabs or blanks.");
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
-  return Reader(text, source).read(selection);
+  return Reader(text, source, rules).read();
 }
 
 std::string shortest(double value) {

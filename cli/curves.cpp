@@ -6,16 +6,14 @@
 #include "csv.h"
 #include "failure.h"
 #include "files.h"
+#include "geojson.h"
+#include "report.h"
 
 namespace cli {
 namespace {
 
 constexpr std::size_t most_dimensions = 4;
-
-bool ends_meet(const std::vector<double>& points, std::size_t dimension) {
-  return std::equal(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(dimension),
-                    points.end() - static_cast<std::ptrdiff_t>(dimension));
-}
+constexpr const char* gap_advice = "cut the curve there with --gaps split, go straight across with --gaps bridge";
 
 void check_shape(const Table& table, const std::string& source) {
   if (table.columns > most_dimensions)
@@ -24,89 +22,153 @@ void check_shape(const Table& table, const std::string& source) {
   if (table.rows() < 2) throw Failure(Exit::Input, source + " holds one point; a curve needs at least 2.");
 }
 
-}  // namespace
+bool ends_meet(const Samples& samples) {
+  const auto d = static_cast<std::ptrdiff_t>(samples.dimension);
+  return std::equal(samples.points.begin(), samples.points.begin() + d, samples.points.end() - d);
+}
 
-Samples read_samples(const std::string& path, const std::vector<std::string>& columns, bool closed) {
-  const auto source = input_name(path);
-  auto table = parse_csv(read_file(path), source, columns);
+// An altitude of GeoJSON is in metres, and goes with kilometres.
+constexpr double kilometres_in_a_metre = 1e-3;
+// By how much east-west lengths may be wrong on a plane: told from the first on, refused beyond the second.
+constexpr double told_stretch = 1.1, most_stretch = 2;
+
+// From one curve as it was read to one or more as they are fitted.
+class Preparation {
+ public:
+  Preparation(std::string source, const Reading& reading) : source_(std::move(source)), reading_(reading) {}
+
+  void take(Samples samples) {
+    place_ = source_ + (samples.place.empty() ? "" : ", " + samples.place);
+    if (reading_.project) unwrap_degrees(samples);
+    drop_repeated_point(samples);
+    if (reading_.gaps == Gaps::Split) return take_pieces(samples);
+    if (reading_.gaps == Gaps::Bridged) bridge(samples);
+    keep(std::move(samples));
+  }
+
+  Curves curves() && {
+    place_ = source_;
+    if (stretched_ > 0)
+      say(counted(stretched_, "curve") + " with east-west lengths wrong by up to " +
+          rounded((worst_stretch_ - 1) * 100, 2) + " % at the ends of the plane");
+    return std::move(curves_);
+  }
+
+ private:
+  void say(const std::string& what) { curves_.notes.push_back(place_ + ": " + what + "."); }
+
+  [[noreturn]] void refuse(const std::string& what) const { throw Failure(Exit::Input, place_ + ": " + what + "."); }
+
+  void unwrap_degrees(Samples& samples) const {
+    const auto d = static_cast<std::size_t>(samples.dimension);
+    if (d < 2)
+      throw Failure(Exit::Usage, "--project needs two columns, longitude and latitude; " + place_ + " has one.");
+    if (const auto k = first_off_the_earth(samples.points, d))
+      refuse("point " + std::to_string(*k + 1) + " is " + shortest(samples.points[*k * d]) + ", " +
+             shortest(samples.points[*k * d + 1]) +
+             "; --project takes longitude and latitude in degrees, latitudes up to 90: give the columns in that order "
+             "(--columns), or leave --project out when the coordinates are lengths");
+    unwrap(samples.points, d);
+    if (samples.closed && runs_round_a_pole(samples.points, d))
+      refuse(
+          "the ring runs round a pole, which no local plane holds; project it with another tool, and leave "
+          "--project out");
+  }
+
+  void drop_repeated_point(Samples& samples) {
+    const auto d = static_cast<std::size_t>(samples.dimension);
+    if (!ends_meet(samples)) return;
+    if (!samples.closed) {
+      say("the last point repeats the first; if this is a ring, add --closed");
+    } else if (samples.points.size() > 2 * d) {
+      samples.points.resize(samples.points.size() - d);
+      say("the last point repeats the first and was dropped, as --closed closes the ring");
+    }
+  }
+
+  void bridge(Samples& samples) {
+    const auto d = static_cast<std::size_t>(samples.dimension);
+    auto bridge = bridge_gaps(std::move(samples.points), d, samples.closed);
+    if (bridge.points.size() / d < bridge.filled + 2)
+      refuse("fewer than two points are known; a curve needs at least 2");
+    if (bridge.filled > 0)
+      say(counted(bridge.gaps, "gap") + " bridged with " + counted(bridge.filled, "point") + " on straight lines");
+    if (bridge.cut_off > 0) say(counted(bridge.cut_off, "point") + " of gaps at the ends cut off");
+    samples.points = std::move(bridge.points);
+  }
+
+  void take_pieces(const Samples& samples) {
+    auto split = split_at_gaps(samples.points, static_cast<std::size_t>(samples.dimension), samples.closed);
+    if (split.pieces.empty()) refuse("no two points follow each other without a gap; --gaps bridge goes across");
+    if (split.gaps > 0) say(counted(split.gaps, "gap") + ", " + counted(split.pieces.size(), "piece"));
+    if (samples.closed && split.gaps > 0) say("the ring is cut at its gaps: its pieces are open");
+    if (split.singles > 0)
+      say(counted(split.singles, "point") + " alone between gaps left out, as a curve needs at least 2");
+    for (auto& piece : split.pieces)
+      keep({std::move(piece), samples.dimension, split.closed, samples.name, samples.place});
+  }
+
+  void keep(Samples samples) {
+    if (reading_.project) to_plane(samples);
+    curves_.all.push_back(std::move(samples));
+  }
+
+  void to_plane(Samples& samples) {
+    const auto d = static_cast<std::size_t>(samples.dimension);
+    const auto middle = reading_.project->middle.value_or(middle_of(samples.points, d));
+    const double wrong = stretch(samples.points, d, middle);
+    if (wrong > most_stretch)
+      refuse("on a plane about latitude " + rounded(middle.latitude) +
+             " its east-west lengths would be wrong by more than a factor of two; give it a middle of its own, or "
+             "project it with another tool and leave --project out");
+    if (wrong > told_stretch) ++stretched_;
+    worst_stretch_ = std::max(worst_stretch_, wrong);
+    project(samples.points, d, middle);
+    samples.middle = middle;
+  }
+
+  std::string source_;
+  std::string place_;  // of the curve that is prepared
+  const Reading& reading_;
+  Curves curves_;
+  std::size_t stretched_ = 0;
+  double worst_stretch_ = 1;
+};
+
+Samples samples_of(GeoCurve curve, const Reading& reading) {
+  if (reading.project && curve.dimension == 3)
+    for (std::size_t i = 2; i < curve.points.size(); i += 3) curve.points[i] *= kilometres_in_a_metre;
+  return {std::move(curve.points), curve.dimension, curve.ring || reading.closed, std::move(curve.name),
+          std::move(curve.place)};
+}
+
+Curves curves_of_geojson(std::string_view text, const std::string& source, const Reading& reading) {
+  if (!reading.columns.empty())
+    throw Failure(Exit::Usage, "--columns: " + source + " is GeoJSON, which has no columns; leave it out.");
+  auto read = parse_geojson(text, source, reading.flat);
+  Preparation preparation(source, reading);
+  for (auto& curve : read.all) preparation.take(samples_of(std::move(curve), reading));
+  auto curves = std::move(preparation).curves();
+  curves.notes.insert(curves.notes.begin(), read.notes.begin(), read.notes.end());
+  return curves;
+}
+
+Curves curves_of_table(std::string_view text, const std::string& source, const Reading& reading) {
+  auto table = parse_csv(text, source, {reading.columns, reading.gaps != Gaps::Refused, gap_advice});
   check_shape(table, source);
-  Samples samples{std::move(table.values), static_cast<int>(table.columns), closed, {}};
-  if (!ends_meet(samples.points, table.columns)) return samples;
-  if (!closed) {
-    samples.notes.push_back(source + ": the last point repeats the first; if this is a ring, add --closed.");
-  } else if (samples.points.size() > 2 * table.columns) {
-    samples.points.resize(samples.points.size() - table.columns);
-    samples.notes.push_back(source +
-                            ": the last point repeats the first and was dropped, as --closed closes the ring.");
-  }
-  return samples;
-}
-
-ifsm::Model load_model(const std::string& path) {
-  const auto bytes = read_file(path);
-  if (bytes.empty()) throw Failure(Exit::Input, input_name(path) + " is empty; expected a model written by ifsm fit.");
-  try {
-    return ifsm::Model::load({bytes.begin(), bytes.end()});
-  } catch (const ifsm::Error& error) {
-    const bool its_fault = error.status != IFSM_ERROR_MEMORY && error.status != IFSM_ERROR_INTERNAL;
-    throw Failure(its_fault ? Exit::Input : Exit::Computing, input_name(path) + ": " + error.what());
-  }
-}
-
-std::size_t save_model(const ifsm::Model& model, ifsm::Format format, const std::string& path) {
-  const auto bytes = model.save(format);
-  write_file(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  return bytes.size();
-}
-
-namespace {
-
-// A name has neither a point nor a slash in it.
-bool is_path(const std::string& filter) { return filter.find_first_of("./") != std::string::npos; }
-
-ifsm::Filter filter_of_file(const std::string& path, int control_points, int maps) {
-  ifsm::Filter filter = load_model(path).filter();
-  const auto info = filter.describe();
-  const auto check = [&](const char* option, int asked, int has) {
-    if (asked != 0 && asked != has)
-      throw Failure(Exit::Usage, std::string(option) + " " + std::to_string(asked) + ", but the filter of " + path +
-                                     " has " + std::to_string(has) + "; leave the option away.");
-  };
-  check("--control-points", control_points, info.control_points);
-  check("--maps", maps, info.maps);
-  return filter;
-}
-
-// As a fit starts: coast where it has that shape.
-ifsm::Filter default_filter(int control_points, int maps) {
-  try {
-    return ifsm::Filter::named("coast", ifsm::Topology::joined, control_points, maps);
-  } catch (const ifsm::Error&) {
-    return ifsm::Filter::named("casteljau", ifsm::Topology::joined, control_points, maps);
-  }
+  Preparation preparation(source, reading);
+  preparation.take({std::move(table.values), static_cast<int>(table.columns), reading.closed});
+  return std::move(preparation).curves();
 }
 
 }  // namespace
 
-ifsm::Filter start_filter(const std::string& name, int control_points, int maps) {
-  if (is_path(name)) return filter_of_file(name, control_points, maps);
-  if (name.empty()) return default_filter(control_points, maps);
-  try {
-    return ifsm::Filter::named(name, ifsm::Topology::joined, control_points, maps);
-  } catch (const ifsm::Error&) {
-  }
-  try {
-    return ifsm::Filter::named(name, ifsm::Topology::square, control_points, maps);
-  } catch (const ifsm::Error& error) {
-    throw Failure(Exit::Usage, std::string("--filter: ") + error.what());
-  }
+Curves parse_curves(std::string_view text, const std::string& source, const Reading& reading) {
+  return looks_like_json(text) ? curves_of_geojson(text, source, reading) : curves_of_table(text, source, reading);
 }
 
-void require_joined(const ifsm::Filter& filter, const std::string& name) {
-  if (filter.describe().topology != IFSM_TOPOLOGY_JOINED)
-    throw Failure(Exit::Usage, "--filter: '" + name +
-                                   "' is a square filter, and a fit starts from a joined one; use "
-                                   "casteljau, or fit with --no-fit to use the filter as it is.");
+Curves read_curves(const std::string& path, const Reading& reading) {
+  return parse_curves(read_file(path), input_name(path), reading);
 }
 
 Distance distance(const std::vector<double>& a, const std::vector<double>& b, int dimension) {

@@ -1,11 +1,15 @@
-// Curves and models as files.
+// Measured curves, as they come out of files.
 #pragma once
 
-#include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <ifsm.hpp>
+
+#include "gaps.h"
+#include "projection.h"
 
 namespace cli {
 
@@ -13,24 +17,39 @@ struct Samples {
   std::vector<double> points;  // point-major
   int dimension = 0;
   bool closed = false;
-  std::vector<std::string> notes;  // what the user should know about how the table was read
+  std::string name = {};               // what the file calls it: may be empty, may be any text
+  std::string place = {};              // where in the file it stands; empty when it is all of it
+  std::optional<Degrees> middle = {};  // of the plane it was projected to
 
   ifsm::Curve curve() const { return {points, dimension, closed}; }  // refers to these samples
 };
 
-// A table of 1 to 4 columns. A closed curve's repeated last point is dropped. Throws Failure{Input, Usage}.
-Samples read_samples(const std::string& path, const std::vector<std::string>& columns, bool closed);
+// From degrees to kilometres about a middle: one for all curves, or each curve's own.
+struct ToPlane {
+  std::optional<Degrees> middle = {};
+};
 
-// A model file of either format. Throws Failure{Input}.
-ifsm::Model load_model(const std::string& path);
+// How to read them.
+struct Reading {
+  std::vector<std::string> columns = {};  // of a table; empty for all
+  bool closed = false;                    // lines are rings
+  Gaps gaps = Gaps::Refused;
+  std::optional<ToPlane> project = {};
+  bool flat = false;  // altitudes of GeoJSON are left out
+};
 
-// In one step, see write_file. Gives back how many bytes it took.
-std::size_t save_model(const ifsm::Model& model, ifsm::Format format, const std::string& path);
+struct Curves {
+  std::vector<Samples> all;        // one or more
+  std::vector<std::string> notes;  // what the user should know about how they were read
+};
 
-// What `--filter` names. A name: joined where it has that form, else square. A path (with a point or a slash in it):
-// the filter of that model. 0 chooses the filter's own numbers. Throws Failure{Usage, Input}.
-ifsm::Filter start_filter(const std::string& filter, int control_points, int maps);
-void require_joined(const ifsm::Filter& filter, const std::string& name);
+// A table of 1 to 4 columns is one curve, or as many as there are pieces between gaps. GeoJSON is told by its first
+// character and holds as many as there are lines and rings. A closed curve's repeated last point is dropped.
+// Throws Failure{Input, Usage}.
+Curves read_curves(const std::string& path, const Reading& reading);
+
+// The same of text that was read from `source`.
+Curves parse_curves(std::string_view text, const std::string& source, const Reading& reading);
 
 // How far two rows of points of the same length are apart, in their units.
 struct Distance {

@@ -6,8 +6,11 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <mutex>
+#include <set>
 #include <system_error>
 
 #include "failure.h"
@@ -98,19 +101,33 @@ mode_t mode_for(const fs::path& target) {
   return 0666 & ~mask;
 }
 
-std::mutex writing;      // held while `unfinished` is set or cleared
-std::string unfinished;  // the new file that no rename has made whole yet
+std::mutex writing;                // held while `unfinished` changes
+std::set<std::string> unfinished;  // new files that no rename has made whole yet
+
+constexpr const char* in_the_way = "it is there already; remove it, choose another name, or add --overwrite";
+
+// Gives a file another name; 0 or the error. Refuses to replace in one step where the file system can.
+int renamed(const fs::path& from, const fs::path& to, Existing existing) {
+  if (existing == Existing::Refused) {
+    if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return 0;
+    if (errno != EINVAL && errno != ENOSYS) return errno;
+    if (::access(to.c_str(), F_OK) == 0) return EEXIST;
+  }
+  return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
+}
 
 class NewFile {
  public:
-  NewFile(const std::string& path, const fs::path& target)
-      : path_(path), target_(target), name_((folder_of(target) / ".ifsm-XXXXXX").string()), descriptor_(create()) {
+  explicit NewFile(std::string path)
+      : path_(std::move(path)),
+        target_(destination(path_)),
+        name_((folder_of(target_) / ".ifsm-XXXXXX").string()),
+        descriptor_(create()) {
     if (!descriptor_.valid()) fail_output(path_, reason(errno));
   }
   ~NewFile() {
     const std::lock_guard lock(writing);
-    if (!unfinished.empty()) ::unlink(unfinished.c_str());
-    unfinished.clear();
+    if (unfinished.erase(name_) > 0) ::unlink(name_.c_str());
   }
   NewFile(const NewFile&) = delete;
   NewFile& operator=(const NewFile&) = delete;
@@ -123,25 +140,48 @@ class NewFile {
     if (error != 0) fail_output(path_, reason(error));
   }
 
-  void take_its_name() {
-    const std::lock_guard lock(writing);
-    if (::rename(name_.c_str(), target_.c_str()) != 0) fail_output(path_, reason(errno));
-    unfinished.clear();
+  // The caller holds `writing`.
+  void take_its_name(Existing existing) {
+    const int error = renamed(name_, target_, existing);
+    if (error != 0) fail_output(path_, error == EEXIST ? in_the_way : reason(error));
+    unfinished.erase(name_);
   }
+  void remove_again() const { ::unlink(target_.c_str()); }
 
  private:
   int create() {
     const std::lock_guard lock(writing);
     const int descriptor = ::mkostemp(name_.data(), O_CLOEXEC);
-    if (descriptor >= 0) unfinished = name_;
+    if (descriptor >= 0) unfinished.insert(name_);
     return descriptor;
   }
 
-  const std::string& path_;
-  const fs::path& target_;
+  std::string path_;
+  fs::path target_;
   std::string name_;
   Descriptor descriptor_;
 };
+
+void place(std::deque<NewFile>& files, Existing existing) {
+  const std::lock_guard lock(writing);
+  auto next = files.begin();
+  try {
+    for (; next != files.end(); ++next) next->take_its_name(existing);
+  } catch (const Failure&) {
+    if (existing == Existing::Refused)
+      for (auto placed = files.begin(); placed != next; ++placed) placed->remove_again();
+    throw;
+  }
+}
+
+bool is_written_to_directly(const std::string& path) { return path == "-" || is_special(path); }
+
+void write_directly(const std::string& path, std::string_view bytes) {
+  Descriptor file(path == "-" ? ::dup(STDOUT_FILENO) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+  const int error = file.valid() ? write_all(file.number(), bytes) : errno;
+  const int late = file.close();
+  if (error != 0 || late != 0) fail_output(path, reason(error != 0 ? error : late));
+}
 
 void check_special(const std::string& path) {
   if (::access(path.c_str(), W_OK) != 0) fail_output(path, reason(errno));
@@ -168,24 +208,35 @@ void check_writable(const std::string& path) {
     fail_output(path, folder_of(target).string() + ": " + reason(errno));
 }
 
+void check_absent(const std::string& path, Existing existing) {
+  if (existing == Existing::Refused && !is_written_to_directly(path) && fs::exists(fs::symlink_status(path)))
+    fail_output(path, in_the_way);
+}
+
 void write_file(const std::string& path, std::string_view bytes) {
   check_writable(path);
-  if (path == "-" || is_special(path)) {
-    Descriptor file(path == "-" ? ::dup(STDOUT_FILENO) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC));
-    const int error = file.valid() ? write_all(file.number(), bytes) : errno;
-    const int late = file.close();
-    if (error != 0 || late != 0) fail_output(path, reason(error != 0 ? error : late));
-    return;
+  if (is_written_to_directly(path)) return write_directly(path, bytes);
+  std::deque<NewFile> one;
+  one.emplace_back(path).fill(bytes);
+  place(one, Existing::Replaced);
+}
+
+void write_files(const std::vector<File>& files, Existing existing) {
+  std::deque<NewFile> whole;
+  for (const auto& [path, bytes] : files) {
+    check_writable(path);
+    check_absent(path, existing);
+    if (is_written_to_directly(path))
+      write_directly(path, bytes);
+    else
+      whole.emplace_back(path).fill(bytes);
   }
-  const auto target = destination(path);
-  NewFile file(path, target);
-  file.fill(bytes);
-  file.take_its_name();
+  place(whole, existing);
 }
 
 void abandon_writing() {
   writing.lock();  // for ever: the process ends
-  if (!unfinished.empty()) ::unlink(unfinished.c_str());
+  for (const auto& name : unfinished) ::unlink(name.c_str());
 }
 
 }  // namespace cli

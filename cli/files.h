@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace cli {
 
@@ -21,7 +22,20 @@ void check_writable(const std::string& path);
 // Throws Failure{Output}.
 void write_file(const std::string& path, std::string_view bytes);
 
-// Removes the new file of a write_file that is under way, if any, and lets no other begin: for the last moment before
+struct File {
+  std::string path;
+  std::string bytes;
+};
+enum class Existing { Replaced, Refused };
+
+// Throws Failure{Output} when `existing` refuses a file that is there already.
+void check_absent(const std::string& path, Existing existing);
+
+// The same for several files: all new files are complete before the first takes its name. When one cannot, those that
+// had theirs are removed again, unless they replaced others. No signal stops the taking of names half way.
+void write_files(const std::vector<File>& files, Existing existing);
+
+// Removes the new files of a writing that is under way, if any, and lets no other begin: for the last moment before
 // _exit. Any thread.
 void abandon_writing();
 

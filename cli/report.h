@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -13,8 +14,21 @@ using Json = nlohmann::ordered_json;
 // A number as people read it: `digits` significant ones.
 std::string rounded(double value, int digits = 4);
 
-// Columns under their headings, aligned to the right, two blanks apart.
-std::string aligned(const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows);
+// "1 gap", "3 gaps".
+std::string counted(std::size_t number, const std::string& noun);
+
+// Not the first byte of a character of UTF-8.
+inline bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+// Text from a file, fit for a terminal: no control characters, and not longer than a line has room for.
+std::string printable(std::string_view text);
+
+// Columns under their headings, two blanks apart, aligned to the right; the first `left` of them to the left.
+std::string aligned(const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows,
+                    std::size_t left = 0);
+
+std::string text_of(const Json& json);          // for people, one member a line
+std::string compact_text_of(const Json& json);  // for programs, all in one line
 
 // To standard output. Throws Failure{Output}.
 void print(const std::string& text);

@@ -1,12 +1,16 @@
 // The commands of the program. Each file adds one subcommand: its options, and what it does with them.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "csv.h"
+#include "curves.h"
 #include "interrupt.h"
+#include "report.h"
 
 namespace cli {
 
@@ -18,6 +22,7 @@ void add_fit(CLI::App& program, Session& session);
 void add_info(CLI::App& program, Session& session);
 void add_synth(CLI::App& program, Session& session);
 void add_eval(CLI::App& program, Session& session);
+void add_plot(CLI::App& program, Session& session);
 void add_train(CLI::App& program, Session& session);
 
 // ---- options that several commands share
@@ -28,6 +33,15 @@ struct Talk {
 };
 void add_talk(CLI::App& command, Talk& talk);
 
+// How curves are read.
+void add_reading(CLI::App& command, Reading& reading);
+
+// "-19.1,64.9" as an option's value. Throws Failure{Usage}.
+Degrees typed_degrees(const std::string& option, const std::string& text);
+
+// Notes on standard error, the first few of them.
+void tell_notes(const std::vector<std::string>& notes, const Talk& talk);
+
 // Where points go, and how they are written.
 struct PointsOutput {
   std::string path = "-";
@@ -37,6 +51,10 @@ struct PointsOutput {
   void write(Table table) const;
 };
 void add_points_output(CLI::App& command, PointsOutput& output);
+
+// The end of every command whose result went to `output`: the report, if there is one to be told. It is made only then.
+void tell_report(const Talk& talk, const std::string& output, const std::function<Json()>& report,
+                 std::string (*in_words)(const Json&));
 
 // The report goes to standard output; it cannot when the result does.
 void refuse_json_beside_result(const Talk& talk, const std::string& output);

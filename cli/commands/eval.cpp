@@ -5,7 +5,7 @@
 #include "curves.h"
 #include "failure.h"
 #include "files.h"
-#include "report.h"
+#include "models.h"
 
 namespace cli {
 namespace {
@@ -91,7 +91,7 @@ void run(const EvalArguments& arguments) {
   const auto points = model.evaluate(parameters.values, arguments.limit ? ifsm::Follow::limit : ifsm::Follow::polyline);
   auto table = table_of(parameters.values, points, info.dimension);
   if (arguments.talk.json)
-    write_file(arguments.output.path, json_of(input_name(arguments.model), table).dump(2) + "\n");
+    write_file(arguments.output.path, text_of(json_of(input_name(arguments.model), table)));
   else
     arguments.output.write(std::move(table));
 }

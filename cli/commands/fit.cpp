@@ -1,44 +1,28 @@
-// ifsm fit: samples in, model out.
+// ifsm fit: samples in, models out.
 #include <unistd.h>
 
+#include <filesystem>
 #include <memory>
-#include <optional>
 
 #include "commands/command.h"
-#include "curves.h"
+#include "commands/fit_report.h"
+#include "commands/fitting.h"
 #include "failure.h"
 #include "files.h"
-#include "progress.h"
-#include "report.h"
+#include "targets.h"
 
 namespace cli {
 namespace {
 
 struct FitArguments {
   std::string input;
+  Reading reading;
+  FitSettings settings;
   std::string output;
-  std::vector<std::string> columns;
-  bool closed = false;
-  std::vector<std::int64_t> budgets;
-  std::string control_points;
-  std::string maps;
-  std::string filter;
+  bool overwrite = false;
   std::string format;
-  int iterations = 0;  // 0: the library's default, here and below
-  int rounds = 0;
-  std::optional<int> polish;
-  int threads = 0;
-  bool no_fit = false;
   Talk talk;
 };
-
-constexpr int chosen_by_library = -1;
-constexpr int no_polish = -1;
-
-int shape_number(const std::string& text) {
-  if (text.empty()) return 0;
-  return text == "auto" ? chosen_by_library : std::stoi(text);
-}
 
 CLI::Validator number_or_auto(int low, int high) {
   const auto range = std::to_string(low) + " to " + std::to_string(high) + ", or auto";
@@ -62,190 +46,131 @@ ifsm::Format format_of(const FitArguments& arguments) {
 
 // What can be known to fail is said before the computation, not after it.
 void check_arguments(const FitArguments& arguments) {
-  const bool automatic = arguments.control_points == "auto" || arguments.maps == "auto";
-  if (automatic && arguments.no_fit)
+  const auto& settings = arguments.settings;
+  const bool automatic = settings.control_points == "auto" || settings.maps == "auto";
+  if (automatic && settings.no_fit)
     throw Failure(Exit::Usage, "auto chooses by fitting; with --no-fit give numbers to --control-points and --maps.");
-  if (automatic && !arguments.filter.empty())
+  if (automatic && !settings.filter.empty())
     throw Failure(Exit::Usage, "auto chooses the shape, --filter has one already; give only one of them.");
   refuse_json_beside_result(arguments.talk, arguments.output);
   if (arguments.output == "-" && format_of(arguments) == ifsm::Format::cbor && isatty(STDOUT_FILENO))
     throw Failure(Exit::Usage, "CBOR is not for a terminal; add --format json, or name a file with -o.");
-  check_writable(arguments.output);
 }
 
-ifsm::Filter chosen_filter(const FitArguments& arguments, const std::string& name) {
-  return start_filter(name, shape_number(arguments.control_points), shape_number(arguments.maps));
+Targets targets_of(const FitArguments& arguments, const std::vector<Samples>& curves) {
+  const auto stem = arguments.input == "-" ? "curve" : std::filesystem::path(arguments.input).stem().string();
+  std::vector<std::string> names;
+  for (const auto& curve : curves) names.push_back(curve.name);
+  return target_paths(arguments.output, stem, format_of(arguments) == ifsm::Format::json ? ".json" : ".ifsm", names);
 }
 
-ifsm::Model exact_model(const FitArguments& arguments, const Samples& samples) {
-  return {chosen_filter(arguments, arguments.filter), samples.curve()};
+Existing existing_of(const FitArguments& arguments, const Targets& targets) {
+  return targets.made_up && !arguments.overwrite ? Existing::Refused : Existing::Replaced;
 }
 
-ifsm::Fit fitted(const FitArguments& arguments, const Samples& samples, Session& session) {
-  ifsm::Filter start;
-  if (!arguments.filter.empty()) {
-    start = chosen_filter(arguments, arguments.filter);
-    require_joined(start, arguments.filter);
+void check_targets(const FitArguments& arguments, const Targets& targets) {
+  for (const auto& path : targets.paths) {
+    check_writable(path);
+    check_absent(path, existing_of(arguments, targets));
   }
-  const Interrupt::Cancellable job(session.interrupt);
-  Progress progress("fit", Progress::style_of_terminal(arguments.talk.quiet));
-  ifsm::FitOptions options;
-  options.threads = arguments.threads;
-  options.start = arguments.filter.empty() ? nullptr : &start;
-  options.control_points = shape_number(arguments.control_points);
-  options.maps = shape_number(arguments.maps);
-  options.budgets = arguments.budgets;
-  options.iterations = arguments.iterations;
-  options.rounds = arguments.rounds;
-  if (arguments.polish) options.polish = *arguments.polish > 0 ? *arguments.polish : no_polish;
-  options.cancel = &job.token();
-  options.progress = [&progress](double fraction, const std::string& stage) {
-    progress.update(fraction, stage);
-    return false;
-  };
-  auto fit = ifsm::fit_sparse({samples.curve()}, options);
-  job.confirm();
-  return fit;
 }
 
-// ---- the report
-
-const char* reason_name(std::int32_t reason) {
-  switch (reason) {
-    case IFSM_FIT_CONVERGED: return "converged";
-    case IFSM_FIT_ITERATIONS: return "all iterations used";
-    case IFSM_FIT_START_BEST: return "nothing better than the start";
+std::vector<File> files_of(const FitArguments& arguments, const Targets& targets,
+                           const std::vector<FittedModel>& models) {
+  std::vector<File> files;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    const auto bytes = models[i].model.save(format_of(arguments));
+    files.push_back({targets.paths[i], {bytes.begin(), bytes.end()}});
   }
-  return "unknown";
+  return files;
 }
 
-Json fit_report(const ifsm::Fit& fit) {
-  const auto report = fit.describe();
-  Json json{{"reason", reason_name(report.reason)},
-            {"iterations", report.iterations},
-            {"start_cost", report.start_cost},
-            {"final_cost", report.final_cost},
-            {"start_condition", report.start_condition},
-            {"final_condition", report.final_condition},
-            {"budgets", Json::array()}};
-  for (std::int64_t i = 0; i < report.budgets; ++i) {
-    const auto row = fit.describe_budget(0, i);
-    json["budgets"].push_back({{"budget", row.budget},
-                               {"details", row.details},
-                               {"start_rms", row.start_rms},
-                               {"start_max", row.start_max},
-                               {"rms", row.rms},
-                               {"max", row.max}});
-  }
-  return json;
-}
-
-Json model_report(const FitArguments& arguments, const ifsm::Model& model, std::size_t bytes) {
-  const auto info = model.describe();
-  return {{"input", input_name(arguments.input)},
-          {"output", arguments.output},
-          {"format", format_of(arguments) == ifsm::Format::json ? "json" : "cbor"},
-          {"bytes", bytes},
-          {"samples", info.samples},
-          {"dimension", info.dimension},
-          {"closed", info.closed == 1},
-          {"levels", info.levels},
-          {"control_points", info.control_points},
-          {"maps", info.maps},
-          {"details", info.details}};
-}
-
-std::string in_words(const Json& report) {
-  const auto number = [](const Json& value) { return std::to_string(value.get<std::int64_t>()); };
-  std::string text = report["input"].get<std::string>() + ": " + number(report["samples"]) + " samples, dimension " +
-                     number(report["dimension"]) + (report["closed"] ? ", closed\n" : ", open\n") +
-                     report["output"].get<std::string>() + ": " + number(report["levels"]) +
-                     " levels, n = " + number(report["control_points"]) + ", N = " + number(report["maps"]) + ", " +
-                     number(report["bytes"]) + " bytes of " + report["format"].get<std::string>() + "\n";
-  if (!report.contains("fit")) return text;
-  const auto& fit = report["fit"];
-  text += number(fit["iterations"]) + " iterations (" + fit["reason"].get<std::string>() + "), condition of R " +
-          rounded(fit["start_condition"]) + " -> " + rounded(fit["final_condition"]) + "\n\n";
-  std::vector<std::vector<std::string>> rows;
-  for (const auto& row : fit["budgets"])
-    rows.push_back({number(row["budget"]), number(row["details"]), rounded(row["start_rms"]), rounded(row["rms"]),
-                    rounded(row["start_max"]), rounded(row["max"])});
-  return text + aligned({"budget", "details", "start RMS", "fitted RMS", "start max", "fitted max"}, rows);
+Json report_of(const FitArguments& arguments, const Targets& targets, const std::vector<Samples>& curves,
+               const std::vector<FittedModel>& models, const std::vector<File>& files) {
+  Json report{{"input", input_name(arguments.input)}};
+  Json all = Json::array();
+  for (std::size_t i = 0; i < models.size(); ++i)
+    all.push_back(report_of(curves[i], models[i], {files[i].path, format_of(arguments), files[i].bytes.size()}));
+  if (targets.made_up)
+    report["models"] = all;
+  else
+    report.update(all.front());
+  return report;
 }
 
 void run(const FitArguments& arguments, Session& session) {
   check_arguments(arguments);
-  const auto samples = read_samples(arguments.input, arguments.columns, arguments.closed);
-  if (!arguments.talk.quiet)
-    for (const auto& text : samples.notes) note(text);
+  const auto [curves, notes] = read_curves(arguments.input, arguments.reading);
+  tell_notes(notes, arguments.talk);
+  const auto targets = targets_of(arguments, curves);
+  check_targets(arguments, targets);
+  const auto models =
+      fitted_models(curves, arguments.settings, input_name(arguments.input), arguments.talk.quiet, session.interrupt);
+  const auto files = files_of(arguments, targets, models);
+  write_files(files, existing_of(arguments, targets));
+  const auto report = [&, &curves = curves] { return report_of(arguments, targets, curves, models, files); };
+  tell_report(arguments.talk, arguments.output, report, in_words);
+}
 
-  ifsm::Model model;
-  Json json_of_fit;
-  if (arguments.no_fit) {
-    model = exact_model(arguments, samples);
-  } else {
-    const auto fit = fitted(arguments, samples, session);
-    model = fit.model(0);
-    json_of_fit = fit_report(fit);
-  }
-  const auto bytes = save_model(model, format_of(arguments), arguments.output);
-
-  if (arguments.output == "-") return;
-  auto report = model_report(arguments, model, bytes);
-  if (!json_of_fit.is_null()) report["fit"] = json_of_fit;
-  if (arguments.talk.json)
-    print(report);
-  else if (!arguments.talk.quiet)
-    print(in_words(report));
+void add_settings(CLI::App& command, FitSettings& settings) {
+  auto* budget = command
+                     .add_option("--budget", settings.budgets,
+                                 "Sizes of sketches to be good at, control points and details together, e.g. 32,128 "
+                                 "(default 128)")
+                     ->delimiter(',')
+                     ->allow_extra_args(false)
+                     ->check(CLI::PositiveNumber);
+  command.add_option("--control-points", settings.control_points, "Points of a control polygon, n (default 5)")
+      ->check(number_or_auto(1, 16));
+  command.add_option("--maps", settings.maps, "Pieces that a polygon is cut into, N (default 2)")
+      ->check(number_or_auto(2, 8));
+  command.add_option("--filter", settings.filter,
+                     "Where to start (default casteljau); an unknown name lists the known ones");
+  auto* iterations = command.add_option("--iterations", settings.iterations, "At most so many a round (default 40)")
+                         ->check(CLI::Range(1, 1000));
+  auto* rounds =
+      command.add_option("--rounds", settings.rounds, "How often the scale of sparsity is estimated (default 2)")
+          ->check(CLI::Range(1, 100));
+  auto* polish =
+      command.add_option("--polish", settings.polish, "Rounds on the sketches' own error (default 8); 0 for none")
+          ->check(CLI::Range(0, 100));
+  command
+      .add_option("--threads", settings.threads, "Threads to use (default: one a core); results do not depend on it")
+      ->check(CLI::Range(1, 1024));
+  command.add_flag("--no-fit", settings.no_fit, "The exact model under the filter as it is")
+      ->excludes(budget)
+      ->excludes(iterations)
+      ->excludes(rounds)
+      ->excludes(polish);
 }
 
 }  // namespace
 
 void add_fit(CLI::App& program, Session& session) {
-  auto* command = program.add_subcommand("fit", "Fit a model to the ordered points of a table");
+  auto* command = program.add_subcommand("fit", "Fit models to the ordered points of curves");
   auto arguments = std::make_shared<FitArguments>();
   auto& a = *arguments;
-  command->add_option("table", a.input, "Points, one a line, 1 to 4 numbers each; - is standard input")->required();
-  command->add_option("-o,--output", a.output, "Model to write; - is standard output")->required();
-  command->add_option("--columns", a.columns, "Columns to read, by header or number from 1, e.g. x,y")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_flag("--closed", a.closed, "The curve is a ring: the last point joins the first");
-  auto* budget = command
-                     ->add_option("--budget", a.budgets,
-                                  "Sizes of sketches to be good at, control points and details together, e.g. 32,128 "
-                                  "(default 128)")
-                     ->delimiter(',')
-                     ->allow_extra_args(false)
-                     ->check(CLI::PositiveNumber);
-  command->add_option("--control-points", a.control_points, "Points of a control polygon, n (default 5)")
-      ->check(number_or_auto(1, 16));
-  command->add_option("--maps", a.maps, "Pieces that a polygon is cut into, N (default 2)")
-      ->check(number_or_auto(2, 8));
-  command->add_option("--filter", a.filter,
-                      "Where to start: a name (default coast, or casteljau for shapes that it does not have; an "
-                      "unknown one lists the known ones), or a file: the filter "
-                      "of any model, or of ifsm train");
+  command
+      ->add_option("curves", a.input,
+                   "A table of points, one a line, 1 to 4 numbers each, or GeoJSON; - is standard input")
+      ->required();
+  command
+      ->add_option("-o,--output", a.output,
+                   "Model to write; - is standard output. Of several curves: a name with %d or %s, their number or "
+                   "name, or a folder")
+      ->required();
+  command->add_flag("--overwrite", a.overwrite, "Replace files whose names were made up by %d, %s or for a folder");
+  add_reading(*command, a.reading);
+  add_settings(*command, a.settings);
   command->add_option("--format", a.format, "json or cbor (default: json when the name ends in .json, else cbor)")
       ->check(CLI::IsMember({"json", "cbor"}));
-  auto* iterations = command->add_option("--iterations", a.iterations, "At most so many a round (default 40)")
-                         ->check(CLI::Range(1, 1000));
-  auto* rounds = command->add_option("--rounds", a.rounds, "How often the scale of sparsity is estimated (default 2)")
-                     ->check(CLI::Range(1, 100));
-  auto* polish = command->add_option("--polish", a.polish, "Rounds on the sketches' own error (default 8); 0 for none")
-                     ->check(CLI::Range(0, 100));
-  command->add_option("--threads", a.threads, "Threads to use (default: one a core); results do not depend on it")
-      ->check(CLI::Range(1, 1024));
-  command->add_flag("--no-fit", a.no_fit, "The exact model under the filter as it is")
-      ->excludes(budget)
-      ->excludes(iterations)
-      ->excludes(rounds)
-      ->excludes(polish);
   add_talk(*command, a.talk);
   command->footer(
       "Examples:\n"
       "  ifsm fit coast.csv --closed --budget 32,128 -o coast.ifsm\n"
       "  ifsm fit track.csv --columns lon,lat --control-points auto -o track.json\n"
+      "  ifsm fit logger.csv --gaps split -o 'piece-%d.ifsm'\n"
+      "  ifsm fit isles.geojson --project -o 'isle-%d.ifsm'\n"
       "  ifsm fit profile.csv --no-fit --filter casteljau --control-points 4 -o profile.ifsm\n");
   command->callback([arguments, &session] { run(*arguments, session); });
 }

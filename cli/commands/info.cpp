@@ -4,9 +4,8 @@
 #include <memory>
 
 #include "commands/command.h"
-#include "curves.h"
 #include "files.h"
-#include "report.h"
+#include "models.h"
 
 namespace cli {
 namespace {

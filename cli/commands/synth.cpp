@@ -7,7 +7,9 @@
 #include "curves.h"
 #include "failure.h"
 #include "files.h"
-#include "report.h"
+#include "geojson.h"
+#include "models.h"
+#include "projection.h"
 
 namespace cli {
 namespace {
@@ -15,6 +17,8 @@ namespace {
 struct SynthArguments {
   std::string model;
   PointsOutput output;
+  bool geojson = false;
+  std::string unproject;  // "longitude,latitude"; empty: not asked for
   std::optional<int> keep_levels;
   std::optional<std::int64_t> keep_details;
   std::optional<double> threshold;
@@ -82,28 +86,52 @@ std::string in_words(const Json& report) {
          " and at most " + rounded(report["max"]) + " from the model\n";
 }
 
-void run(const SynthArguments& arguments, Session& session) {
+constexpr double metres_in_a_kilometre = 1e3;
+
+// What can be known to fail is said before the computation, not after it.
+void check_arguments(const SynthArguments& arguments) {
   refuse_json_beside_result(arguments.talk, arguments.output.path);
+  if (!arguments.unproject.empty()) typed_degrees("--unproject", arguments.unproject);
   if (!arguments.resolve.empty() && keeps_all(arguments))
     throw Failure(Exit::Usage, "--resolve solves anew what is kept; add --levels, --details or --threshold.");
   check_writable(arguments.output.path);
+}
+
+void check_position(int dimension) {
+  if (dimension != 2 && dimension != 3)
+    throw Failure(Exit::Usage, "a position of GeoJSON has 2 or 3 coordinates, the points of this model " +
+                                   std::to_string(dimension) + "; write a table instead.");
+}
+
+std::vector<double> in_degrees(std::vector<double> points, int dimension, const std::string& middle) {
+  check_position(dimension);
+  unproject(points, static_cast<std::size_t>(dimension), typed_degrees("--unproject", middle));
+  for (std::size_t i = 2; dimension == 3 && i < points.size(); i += 3) points[i] *= metres_in_a_kilometre;
+  return points;
+}
+
+void write_points(const SynthArguments& arguments, std::vector<double> points, const ifsm_model_info& info) {
+  if (!arguments.unproject.empty()) points = in_degrees(std::move(points), info.dimension, arguments.unproject);
+  if (!arguments.geojson)
+    return arguments.output.write(
+        {coordinate_names(info.dimension), static_cast<std::size_t>(info.dimension), std::move(points)});
+  check_position(info.dimension);
+  const Json properties{{"model", input_name(arguments.model)}, {"details", info.details_kept}};
+  write_file(arguments.output.path, compact_text_of(geojson_of(points, info.dimension, info.closed == 1, properties)));
+}
+
+void run(const SynthArguments& arguments, Session& session) {
+  check_arguments(arguments);
   const auto model = load_model(arguments.model);
   ifsm::Model reduced;
   if (!keeps_all(arguments)) reduced = sketch_of(model, arguments, session);
   const auto& sketch = keeps_all(arguments) ? model : reduced;
 
-  const auto dimension = sketch.describe().dimension;
-  Table table{coordinate_names(dimension), static_cast<std::size_t>(dimension), points_of(sketch, arguments)};
-  const auto rows = table.rows();
-  arguments.output.write(std::move(table));
-
-  if (arguments.output.path == "-") return;
-  if (!arguments.talk.json && arguments.talk.quiet) return;
-  const auto report = report_of(arguments, model, sketch, rows);
-  if (arguments.talk.json)
-    print(report);
-  else
-    print(in_words(report));
+  auto points = points_of(sketch, arguments);
+  const auto rows = points.size() / static_cast<std::size_t>(sketch.describe().dimension);
+  write_points(arguments, std::move(points), sketch.describe());
+  tell_report(
+      arguments.talk, arguments.output.path, [&] { return report_of(arguments, model, sketch, rows); }, in_words);
 }
 
 }  // namespace
@@ -114,6 +142,9 @@ void add_synth(CLI::App& program, Session& session) {
   auto& a = *arguments;
   command->add_option("model", a.model, "A model written by ifsm fit; - is standard input")->required();
   add_points_output(*command, a.output);
+  command->add_flag("--geojson", a.geojson, "Write GeoJSON instead of a table: a Polygon of a ring, else a LineString");
+  command->add_option("--unproject", a.unproject,
+                      "Turn kilometres back into degrees about LON,LAT, the middle that ifsm fit --project told");
   auto* levels = command->add_option("--levels", a.keep_levels, "Keep the details of the first so many levels only")
                      ->check(CLI::NonNegativeNumber);
   auto* details = command->add_option("--details", a.keep_details, "Keep so many details, the most significant ones")
@@ -140,6 +171,7 @@ void add_synth(CLI::App& program, Session& session) {
       "  ifsm synth coast.ifsm -o points.csv\n"
       "  ifsm synth coast.ifsm --details 64 --resolve -o sketch.csv\n"
       "  ifsm synth coast.ifsm --level 0            (the control polygon)\n"
+      "  ifsm synth isle.ifsm --geojson --unproject=-18.98,64.96 -o isle.geojson\n"
       "  ifsm synth coast.ifsm --levels 4 --samples 1000 --separator tab\n");
   command->callback([arguments, &session] { run(*arguments, session); });
 }

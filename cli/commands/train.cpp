@@ -7,6 +7,7 @@
 #include "curves.h"
 #include "failure.h"
 #include "files.h"
+#include "models.h"
 #include "progress.h"
 #include "report.h"
 
@@ -16,8 +17,7 @@ namespace {
 struct TrainArguments {
   std::vector<std::string> inputs;
   std::string output;
-  std::vector<std::string> columns;
-  bool closed = false;
+  Reading reading;
   std::vector<std::int64_t> budgets;
   int control_points = 0;  // 0: the library's default, here and below
   int maps = 0;
@@ -30,30 +30,31 @@ struct TrainArguments {
   Talk talk;
 };
 
-struct Family {
-  std::vector<Samples> samples;
-  std::vector<ifsm::Curve> curves() const {
-    std::vector<ifsm::Curve> curves;
-    for (const auto& one : samples) curves.push_back(one.curve());
-    return curves;
-  }
-};
-
-Family read_family(const TrainArguments& arguments) {
-  Family family;
+Curves read_family(const TrainArguments& arguments) {
+  Curves family;
   for (const auto& path : arguments.inputs) {
-    family.samples.push_back(read_samples(path, arguments.columns, arguments.closed));
-    if (family.samples.back().dimension == family.samples.front().dimension) continue;
-    throw Failure(Exit::Input, input_name(path) + " has points of dimension " +
-                                   std::to_string(family.samples.back().dimension) + " and " +
-                                   input_name(arguments.inputs.front()) + " of " +
-                                   std::to_string(family.samples.front().dimension) +
-                                   "; a family has one dimension: choose columns with --columns.");
+    Curves read = read_curves(path, arguments.reading);
+    family.notes.insert(family.notes.end(), read.notes.begin(), read.notes.end());
+    for (Samples& samples : read.all) {
+      family.all.push_back(std::move(samples));
+      if (family.all.back().dimension == family.all.front().dimension) continue;
+      throw Failure(Exit::Input, input_name(path) + " has points of dimension " +
+                                     std::to_string(family.all.back().dimension) + " and " +
+                                     input_name(arguments.inputs.front()) + " of " +
+                                     std::to_string(family.all.front().dimension) +
+                                     "; a family has one dimension: choose columns with --columns.");
+    }
   }
   return family;
 }
 
-ifsm::Trained trained(const TrainArguments& arguments, const Family& family, Session& session) {
+std::vector<ifsm::Curve> curves_of(const Curves& family) {
+  std::vector<ifsm::Curve> curves;
+  for (const Samples& samples : family.all) curves.push_back(samples.curve());
+  return curves;
+}
+
+ifsm::Trained trained(const TrainArguments& arguments, const Curves& family, Session& session) {
   ifsm::Filter start;
   if (!arguments.filter.empty()) {
     start = start_filter(arguments.filter, arguments.control_points, arguments.maps);
@@ -76,7 +77,7 @@ ifsm::Trained trained(const TrainArguments& arguments, const Family& family, Ses
     progress.update(fraction, stage);
     return false;
   };
-  auto result = ifsm::train(family.curves(), options);
+  auto result = ifsm::train(curves_of(family), options);
   job.confirm();
   return result;
 }
@@ -129,29 +130,16 @@ std::string in_words(const Json& report) {
   return text + "\n";
 }
 
-// Families are large, and their tables alike.
-void tell_notes(const Family& family) {
-  constexpr std::size_t most = 3;
-  std::size_t count = 0;
-  for (const auto& samples : family.samples)
-    for (const auto& text : samples.notes)
-      if (++count <= most) note(text);
-  if (count > most) note("and " + std::to_string(count - most) + " more notes of this kind.");
-}
-
 void run(const TrainArguments& arguments, Session& session) {
   refuse_json_beside_result(arguments.talk, arguments.output);
   check_writable(arguments.output);
-  const Family family = read_family(arguments);
-  if (!arguments.talk.quiet) tell_notes(family);
+  const Curves family = read_family(arguments);
+  tell_notes(family.notes, arguments.talk);
   const auto result = trained(arguments, family, session);
-  save_model(carrier(result.filter), ifsm::Format::json, arguments.output);
-  if (arguments.output == "-") return;
-  const Json report = report_of(arguments, result);
-  if (arguments.talk.json)
-    print(report);
-  else if (!arguments.talk.quiet)
-    print(in_words(report));
+  const auto bytes = carrier(result.filter).save(ifsm::Format::json);
+  write_file(arguments.output, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  tell_report(
+      arguments.talk, arguments.output, [&] { return report_of(arguments, result); }, in_words);
 }
 
 }  // namespace
@@ -160,12 +148,9 @@ void add_train(CLI::App& program, Session& session) {
   auto* command = program.add_subcommand("train", "Train one filter on curves of one kind");
   auto arguments = std::make_shared<TrainArguments>();
   auto& a = *arguments;
-  command->add_option("tables", a.inputs, "Tables of points, a curve each")->required();
+  command->add_option("curves", a.inputs, "Tables of points, or GeoJSON: curves of one kind")->required();
   command->add_option("-o,--output", a.output, "Filter to write, for --filter; - is standard output")->required();
-  command->add_option("--columns", a.columns, "Columns to read, by header or number from 1, e.g. x,y")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_flag("--closed", a.closed, "The curves are rings: the last point joins the first");
+  add_reading(*command, a.reading);
   command
       ->add_option("--budget", a.budgets,
                    "Sizes of sketches to be good at, control points and details together (default 16,32,64 … up to an "

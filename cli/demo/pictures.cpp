@@ -4,6 +4,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "figures/errors.h"
+#include "figures/lines.h"
+#include "figures/panels.h"
+#include "figures/scalogram.h"
 #include "plot/figure.h"
 
 namespace demo {
@@ -17,13 +21,15 @@ const Stroke fitted_stroke{colours::blue, 2.2, {}};
 const Stroke start_stroke{colours::orange, 2.2, {}};
 
 std::vector<Point> polyline(const std::vector<double>& points, bool closed) {
-  std::vector<Point> line;
-  for (std::size_t k = 0; k + 1 < points.size(); k += 2) line.push_back({points[k], points[k + 1]});
-  if (closed && !line.empty()) line.push_back(line.front());
-  return line;
+  return figures::line_of(points, 2, closed);
 }
 
 std::vector<Point> coast(const Study& study) { return polyline(study.samples.points, study.samples.closed); }
+
+// Kilometres along the coast up to each sample, and the whole length.
+std::vector<double> kilometres(const Study& study) {
+  return figures::lengths(study.samples.points, study.samples.dimension, study.samples.closed);
+}
 
 // Three digits, as many for each of the pictures that are compared.
 std::string km(double value) {
@@ -57,78 +63,7 @@ void share_ranges(std::vector<Panel>& panels, const std::vector<std::vector<Poin
   for (auto& panel : panels) panel.x.range = air(x), panel.y.range = air(y);
 }
 
-// ---- positions along the coast
-
-// Kilometres along the coast up to each sample; closed: one more entry, the whole length.
-std::vector<double> lengths(const std::vector<Point>& line) {
-  std::vector<double> along{0};
-  for (std::size_t k = 1; k < line.size(); ++k)
-    along.push_back(along.back() + std::hypot(line[k].x - line[k - 1].x, line[k].y - line[k - 1].y));
-  return along;
-}
-
-// Linear interpolation in increasing xs.
-double interpolated(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
-  const auto right = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(
-      std::upper_bound(xs.begin(), xs.end(), x) - xs.begin(), 1, std::ptrdiff_t(xs.size()) - 1));
-  const double share = (x - xs[right - 1]) / (xs[right] - xs[right - 1]);
-  return ys[right - 1] + share * (ys[right] - ys[right - 1]);
-}
-
-std::vector<double> parameters(const Study& study) {
-  auto all = study.model.parameters();
-  if (study.samples.closed) all.push_back(1);
-  return all;
-}
-
 // ---- the scalogram
-
-struct LevelRow {
-  std::vector<double> effects;  // of its nodes: RMS change of the curve by the node's details, in km
-};
-
-std::vector<LevelRow> effects(const Study& study) {
-  const auto info = study.model.describe();
-  std::vector<LevelRow> rows;
-  for (int level = 0; level < info.levels; ++level) {
-    const auto values = study.model.significance(level);
-    const auto per_node = static_cast<std::size_t>(info.details_per_node);
-    LevelRow row;
-    for (std::size_t first = 0; first < values.size(); first += per_node) {
-      double energy = 0;
-      for (std::size_t i = first; i < first + per_node; ++i) energy += values[i] * values[i];
-      row.effects.push_back(std::sqrt(energy / static_cast<double>(info.places)));
-    }
-    rows.push_back(row);
-  }
-  return rows;
-}
-
-// From the largest effect down over as many decades as a reader tells apart.
-Scale effect_scale(const std::vector<LevelRow>& rows) {
-  constexpr double decades = 4;
-  double largest = 0;
-  for (const auto& row : rows) largest = std::max(largest, *std::max_element(row.effects.begin(), row.effects.end()));
-  return {Scale::Kind::Logarithmic, largest / std::pow(10, decades), largest};
-}
-
-std::vector<Cell> cells_of(const Study& study, const std::vector<LevelRow>& rows, const Scale& scale) {
-  const auto at = parameters(study);
-  const auto along = lengths(coast(study));
-  std::vector<Cell> cells;
-  for (std::size_t level = 0; level < rows.size(); ++level) {
-    const auto nodes = static_cast<double>(rows[level].effects.size());
-    for (std::size_t node = 0; node < rows[level].effects.size(); ++node) {
-      const double first = static_cast<double>(node) / nodes, last = static_cast<double>(node + 1) / nodes;
-      const double effect = std::max(rows[level].effects[node], scale.low());
-      // Coarse levels at the top: minus level grows upwards.
-      cells.push_back({{interpolated(at, along, first), interpolated(at, along, last)},
-                       {-double(level) - 0.5, -double(level) + 0.5},
-                       viridis(scale.share(effect))});
-    }
-  }
-  return cells;
-}
 
 struct Milestone {
   double kilometres;
@@ -138,13 +73,14 @@ struct Milestone {
 
 std::vector<Milestone> milestones(const Study& study) {
   const auto line = coast(study);
-  const auto along = lengths(line);
+  const auto along = kilometres(study);
   std::vector<double> xs, ys;
   for (const auto& point : line) xs.push_back(point.x), ys.push_back(point.y);
   std::vector<Milestone> stones;
   for (const auto& tick : Scale(Scale::Kind::Linear, 0, along.back()).ticks(9))
-    stones.push_back(
-        {tick.value, {interpolated(along, xs, tick.value), interpolated(along, ys, tick.value)}, tick.label});
+    stones.push_back({tick.value,
+                      {figures::interpolated(along, xs, tick.value), figures::interpolated(along, ys, tick.value)},
+                      tick.label});
   return stones;
 }
 
@@ -170,50 +106,31 @@ Panel milestone_map(const Study& study, const std::vector<Milestone>& stones) {
 }
 
 Panel scalogram_panel(const Study& study, const std::vector<Milestone>& stones) {
-  const auto rows = effects(study);
-  const auto scale = effect_scale(rows);
-  Panel panel;
+  Panel panel = figures::scalogram_panel(study.model, figures::node_effects(study.model), " in km");
   panel.title = "What the details of each node do to the curve";
-  panel.cells(cells_of(study, rows, scale));
-  panel.colour_bar(scale, "RMS change of the whole curve in km (log)");
   panel.x.label = "position along the coast in km";
-  panel.y.label = "level (0: coarsest)";
   for (const auto& stone : stones) panel.x.ticks.push_back({stone.kilometres, stone.name});
-  for (std::size_t level = 0; level < rows.size(); ++level)
-    panel.y.ticks.push_back({-double(level), std::to_string(level)});
-  panel.x.range = Range{0, lengths(coast(study)).back()};
-  panel.y.range = Range{0.5 - double(rows.size()), 0.5};
   return panel;
 }
 
 // ---- errors
 
-using Measure = double (*)(const cli::Distance&);
-
-std::vector<Point> errors(const Study& study, Sketch Row::*side, bool in_numbers, Measure measure) {
-  std::vector<Point> line;
+figures::ErrorLine error_line(const Study& study, Sketch Row::*side, bool in_numbers) {
+  const bool fitted = side == &Row::fitted;
+  // The start is drawn wider, below: where both agree, both can be seen.
+  figures::ErrorLine line{{}, {}, fitted ? "fitted" : "start", fitted ? colours::blue : colours::orange, !fitted};
   for (const auto& row : study.rows) {
     const auto& sketch = row.*side;
-    line.push_back({double(in_numbers ? sketch.numbers : row.budget), measure(sketch.distance)});
+    line.at.push_back(double(in_numbers ? sketch.numbers : row.budget));
+    line.apart.push_back(sketch.distance);
   }
   return line;
 }
 
 Panel error_panel(const Study& study, bool in_numbers) {
-  const Measure rms = [](const cli::Distance& apart) { return apart.rms; };
-  const Measure max = [](const cli::Distance& apart) { return apart.max; };
-  Panel panel;
-  panel.x.kind = panel.y.kind = Scale::Kind::Logarithmic;
-  const auto add = [&](Sketch Row::*side, Measure measure, double dot, Stroke stroke, const std::string& label) {
-    const auto line = errors(study, side, in_numbers, measure);
-    panel.line(line, stroke, label);
-    panel.dots(line, dot, stroke.colour);
-  };
-  // The start is drawn wider, below: where both agree, both can be seen.
-  add(&Row::start, max, 8, {colours::orange, 3.6, {12, 8}}, "start, largest");
-  add(&Row::start, rms, 8, {colours::orange, 3.6, {}}, "start, RMS");
-  add(&Row::fitted, max, 5.5, {colours::blue, 2.6, {12, 8}}, "fitted, largest");
-  add(&Row::fitted, rms, 5.5, {colours::blue, 2.6, {}}, "fitted, RMS");
+  Panel panel = figures::error_panel(
+      {error_line(study, &Row::start, in_numbers), error_line(study, &Row::fitted, in_numbers)}, 0);
+  panel.x.kind = Scale::Kind::Logarithmic;
   panel.y.label = "distance from the coast in km";
   panel.x.label = in_numbers ? "numbers stored" : "K: control points and details";
   panel.title = in_numbers ? "Counted in numbers stored, the filter's included" : "Counted in vectors";
@@ -226,18 +143,11 @@ Panel error_panel(const Study& study, bool in_numbers) {
 
 std::string coast_picture(const Study& study) {
   const auto info = study.model.describe();
-  const auto polygon = polyline(study.model.points(0), false);
-  Panel panel;
-  panel.equal_aspect = true;
+  const bool ring = info.closed == 1;
+  Panel panel = figures::polygon_panel(study.model).panel;
+  panel.title.clear();
   panel.x.label = "east in km";
   panel.y.label = "north in km";
-  panel.area(coast(study), colours::land);
-  panel.line(coast(study), {colours::ink, 1.4, {}}, "coast, " + std::to_string(info.samples) + " samples");
-  panel.line(polygon, {colours::blue, 2.5, {12, 7}}, "control polygon of the fitted model");
-  panel.dots(polygon, 8, colours::blue, "control points");
-  const bool ring = info.closed == 1;
-  for (std::size_t i = 0; i + (ring ? 1 : 0) < polygon.size(); ++i)
-    panel.name(polygon[i], "p" + std::to_string(i), {24, -22});
   Figure figure;
   figure.height = 1250;
   figure.title = "Iceland's coast and the polygon it grows from";
@@ -246,7 +156,7 @@ std::string coast_picture(const Study& study) {
                 std::to_string(info.details) + " details on " + std::to_string(info.levels) +
                 " levels. With all details it gives the samples back.";
   figure.panels = {panel};
-  return figure.png();
+  return figure.bytes(Format::Png);
 }
 
 std::string levels_picture(const Study& study) {
@@ -272,7 +182,7 @@ std::string levels_picture(const Study& study) {
     if (levels == info.levels) break;
   }
   share_ranges(figure.panels, drawn);
-  return figure.png();
+  return figure.bytes(Format::Png);
 }
 
 std::string details_picture(const Study& study) {
@@ -300,7 +210,7 @@ std::string details_picture(const Study& study) {
   add(&Row::start, start_stroke, "start");
   add(&Row::fitted, fitted_stroke, "fitted");
   share_ranges(figure.panels, drawn);
-  return figure.png();
+  return figure.bytes(Format::Png);
 }
 
 std::string scalogram_picture(const Study& study) {
@@ -315,7 +225,7 @@ std::string scalogram_picture(const Study& study) {
       "Each cell is a node of the fitted model: as wide as its piece of the coast, coloured by its details together. "
       "Smaller changes than the scale shows have its darkest colour.";
   figure.panels = {milestone_map(study, stones), scalogram_panel(study, stones)};
-  return figure.png();
+  return figure.bytes(Format::Png);
 }
 
 std::string errors_picture(const Study& study) {
@@ -329,7 +239,7 @@ std::string errors_picture(const Study& study) {
       "under both filters. Numbers stored: two for each vector, and for the fitted filter its own " +
       std::to_string(study.numbers_of_filter) + ".";
   figure.panels = {error_panel(study, false), error_panel(study, true)};
-  return figure.png();
+  return figure.bytes(Format::Png);
 }
 
 }  // namespace demo

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "models.h"
 #include "report.h"
 
 namespace demo {
@@ -39,7 +40,9 @@ std::string fixed(double value) {
 }  // namespace
 
 Study study(const std::string& path, const Progress& progress) {
-  Study study{cli::read_samples(path, {}, true), {}, 0, {}};
+  cli::Reading ring;
+  ring.closed = true;
+  Study study{cli::read_curves(path, ring).all.front(), {}, 0, {}};
   const auto start = cli::start_filter(start_name, 0, 0);
   const ifsm::Model exact(start, study.samples.curve());
   study.numbers_of_filter = free_numbers(start.describe());

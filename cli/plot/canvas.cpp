@@ -1,15 +1,65 @@
 #include "canvas.h"
 
+#include <cairo-svg.h>
+
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
 
 namespace plot {
 
-Canvas::Canvas(int width, int height)
-    : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height)), context_(cairo_create(surface_.get())) {
+namespace {
+
+constexpr double visible = 0.5;  // pixels: points of lines that are nearer to each other are not drawn
+// Pixels: an SVG's coordinates are multiples, which keeps their decimals few. Cairo itself rounds to 1/256.
+constexpr double grain = 1.0 / 16;
+
+// Not the first byte of a character of UTF-8.
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+
+// Points of a stroke: cairo's time for pixels grows with the crossings of a stroke with itself, so long lines are drawn
+// in pieces. An SVG is drawn by others; its pieces are longer, as each costs bytes.
+constexpr std::size_t most_in_pixels = 32, most_in_svg = 512;
+
+cairo_status_t append(void* target, const unsigned char* data, unsigned int length) {
+  static_cast<std::string*>(target)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+cairo_surface_t* surface_of(const Paper& paper, Format format, std::string& stream) {
+  if (format == Format::Png) return cairo_image_surface_create(CAIRO_FORMAT_RGB24, paper.width, paper.height);
+  auto* surface = cairo_svg_surface_create_for_stream(append, &stream, paper.width, paper.height);
+  cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+  return surface;
+}
+
+void check(cairo_status_t status) {
+  if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(cairo_status_to_string(status));
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '<' || c == '&' || c == '>')
+      result += c == '<' ? "&lt;" : c == '>' ? "&gt;" : "&amp;";
+    else
+      result += c >= 0 && c < ' ' ? ' ' : c;
+  }
+  return result;
+}
+
+}  // namespace
+
+Canvas::Canvas(const Paper& paper, Format format)
+    : paper_(paper),
+      format_(format),
+      surface_(surface_of(paper, format, stream_)),
+      context_(cairo_create(surface_.get())) {
   colour(palette::paper);
   cairo_paint(context_.get());
+  cairo_scale(context_.get(), paper.scale, paper.scale);
   cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
 }
 
@@ -69,6 +119,16 @@ void Canvas::upward_text(const std::string& words, Point middle, const Font& fon
   cairo_restore(context_.get());
 }
 
+std::vector<std::string> Canvas::broken(const std::string& word, const Font& font, double width) {
+  std::vector<std::string> parts{""};
+  for (const char c : word) {
+    if (!continues_character(c) && !parts.back().empty() && text_width(parts.back() + c, font) > width)
+      parts.emplace_back();
+    parts.back() += c;
+  }
+  return parts;
+}
+
 std::vector<std::string> Canvas::wrapped(const std::string& words, const Font& font, double width) {
   std::vector<std::string> lines;
   std::istringstream stream(words);
@@ -76,28 +136,60 @@ std::vector<std::string> Canvas::wrapped(const std::string& words, const Font& f
     const bool fits = !lines.empty() && text_width(lines.back() + " " + word, font) <= width;
     if (fits)
       lines.back() += " " + word;
-    else
+    else if (text_width(word, font) <= width)
       lines.push_back(word);
+    else
+      for (auto& part : broken(word, font, width)) lines.push_back(std::move(part));
   }
   return lines;
 }
 
-void Canvas::trace(const std::vector<Point>& points) {
+std::string Canvas::shortened(std::string words, const Font& font, double width) {
+  const std::string dots = "…";
+  while (!words.empty() && text_width(words, font) > width) {
+    if (words.ends_with(dots)) words.resize(words.size() - dots.size());
+    while (!words.empty() && continues_character(words.back())) words.pop_back();
+    if (!words.empty()) words.pop_back();
+    words += dots;
+  }
+  return words;
+}
+
+std::vector<Point> Canvas::seen(const std::vector<Point>& points) const {
+  auto line = thinned(points, visible / paper_.scale);
+  if (format_ == Format::Png) return line;
+  const double unit = grain / paper_.scale;
+  for (auto& [x, y] : line) x = std::round(x / unit) * unit, y = std::round(y / unit) * unit;
+  return line;
+}
+
+void Canvas::trace(std::span<const Point> points) {
   cairo_new_path(context_.get());
   for (const auto& point : points) cairo_line_to(context_.get(), point.x, point.y);
 }
 
 void Canvas::polyline(const std::vector<Point>& points, const Stroke& stroke) {
-  trace(points);
+  const auto line = seen(points);
   colour(stroke.colour);
   cairo_set_line_width(context_.get(), stroke.width);
   cairo_set_dash(context_.get(), stroke.dashes.data(), static_cast<int>(stroke.dashes.size()), 0);
-  cairo_stroke(context_.get());
+  // The pieces share a step, so that it joins them.
+  const std::size_t most = format_ == Format::Png ? most_in_pixels : most_in_svg;
+  const std::size_t piece = stroke.dashes.empty() ? most : line.size();
+  for (std::size_t first = 0; first < line.size(); first += piece) {
+    trace(std::span(line).subspan(first, std::min(piece + 2, line.size() - first)));
+    cairo_stroke(context_.get());
+  }
   cairo_set_dash(context_.get(), nullptr, 0, 0);
+  const auto& at = points.empty() ? Point{} : points.front();
+  const auto is_there = [&](const Point& point) { return point.x == at.x && point.y == at.y; };
+  if (!points.empty() &&
+      std::all_of(points.begin(), points.end(), is_there))  // has no length, and is seen all the same
+    dot(at, 1.5 * stroke.width, stroke.colour, stroke.colour);
 }
 
 void Canvas::polygon(const std::vector<Point>& points, Colour fill) {
-  trace(points);
+  trace(seen(points));
   cairo_close_path(context_.get());
   colour(fill);
   cairo_fill(context_.get());
@@ -136,15 +228,25 @@ Canvas::Clip::Clip(Canvas& canvas, const Box& inside) : context_(canvas.context_
 
 Canvas::Clip::~Clip() { cairo_restore(context_); }
 
-std::string Canvas::png() const {
+std::string Canvas::bytes(const std::string& title) {
+  check(cairo_status(context_.get()));
+  return format_ == Format::Png ? png() : svg(title);
+}
+
+std::string Canvas::png() {
   std::string bytes;
-  const auto append = [](void* target, const unsigned char* data, unsigned int length) {
-    static_cast<std::string*>(target)->append(reinterpret_cast<const char*>(data), length);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  const auto status = cairo_surface_write_to_png_stream(surface_.get(), append, &bytes);
-  if (status != CAIRO_STATUS_SUCCESS) throw std::runtime_error(cairo_status_to_string(status));
+  check(cairo_surface_write_to_png_stream(surface_.get(), append, &bytes));
   return bytes;
+}
+
+std::string Canvas::svg(const std::string& title) {
+  cairo_surface_finish(surface_.get());
+  check(cairo_surface_status(surface_.get()));
+  const auto root = stream_.find("<svg");
+  const auto inside = root == std::string::npos ? root : stream_.find('>', root);
+  if (inside == std::string::npos) throw std::runtime_error("cairo wrote no SVG.");
+  stream_.insert(inside + 1, "\n<title>" + escaped(title) + "</title>");
+  return stream_;
 }
 
 }  // namespace plot

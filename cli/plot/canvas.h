@@ -1,7 +1,10 @@
-// A page to draw on: cairo with the few verbs that plots need. Lengths are pixels, y grows downwards.
+// A page to draw on: cairo with the few verbs that plots need. Lengths are pixels times the page's scale, y grows
+// downwards. The same calls make a PNG and an SVG; letters of an SVG are outlines, so that it looks the same
+// everywhere.
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,11 +12,16 @@
 #include <cairo.h>
 
 #include "colour.h"
+#include "thin.h"
 
 namespace plot {
 
-struct Point {
-  double x = 0, y = 0;
+enum class Format { Png, Svg };
+
+struct Paper {
+  int width = 0;  // pixels
+  int height = 0;
+  double scale = 1;  // pixels in a unit of length
 };
 
 struct Box {
@@ -38,7 +46,9 @@ enum class Align { Start, Middle, End };
 
 class Canvas {
  public:
-  Canvas(int width, int height);
+  Canvas(const Paper& paper, Format format);
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
 
   // `at` is the middle of the line's height; `along` says which part of the text stands there.
   void text(const std::string& words, Point at, const Font& font, Align along = Align::Start);
@@ -47,8 +57,11 @@ class Canvas {
   void upward_text(const std::string& words, Point middle, const Font& font);
   double text_width(const std::string& words, const Font& font);
   double line_height(const Font& font);
-  // Breaks at blanks so that no line is wider; a single word may be.
+  // Breaks at blanks so that no line is wider, and words that are wider where they must be.
   std::vector<std::string> wrapped(const std::string& words, const Font& font, double width);
+
+  // Words that are too wide lose letters at their end to a "…".
+  std::string shortened(std::string words, const Font& font, double width);
 
   void polyline(const std::vector<Point>& points, const Stroke& stroke);
   void polygon(const std::vector<Point>& points, Colour fill);
@@ -68,18 +81,27 @@ class Canvas {
     cairo_t* context_;
   };
 
-  std::string png() const;  // the page as bytes; throws std::runtime_error
+  // The finished page as a file; `title` is what an SVG tells to those who do not see it. Throws std::runtime_error.
+  std::string bytes(const std::string& title);
 
  private:
+  std::vector<std::string> broken(const std::string& word, const Font& font, double width);
   void select(const Font& font);
   Point start_of(const std::string& words, Point at, const Font& font, Align along);
-  void trace(const std::vector<Point>& points);
+  std::vector<Point> seen(const std::vector<Point>& points) const;
+  void trace(std::span<const Point> points);
   void colour(Colour colour);
+
+  std::string png();
+  std::string svg(const std::string& title);
 
   struct Release {
     void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     void operator()(cairo_t* context) const { cairo_destroy(context); }
   };
+  Paper paper_;
+  Format format_;
+  std::string stream_;  // of the SVG
   std::unique_ptr<cairo_surface_t, Release> surface_;
   std::unique_ptr<cairo_t, Release> context_;
 };

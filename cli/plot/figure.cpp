@@ -10,10 +10,20 @@ const Font small_print{20, false, {0.35, 0.35, 0.37}};
 constexpr double margin = 30;
 constexpr double gutter = 34;  // between panels
 
+// The words in lines, not more than leave room for the panels.
+std::vector<std::string> lines_of(Canvas& canvas, const std::string& words, const Font& font, double width) {
+  constexpr std::size_t most = 3;
+  auto lines = canvas.wrapped(words, font, width);
+  if (lines.size() <= most) return lines;
+  lines.resize(most);
+  lines.back() = canvas.shortened(lines.back() + "…", font, width);
+  return lines;
+}
+
 // Draws words in the box's upper left and gives back what is left of it.
 Box take_lines(Canvas& canvas, Box rest, const std::string& words, const Font& font) {
   const double height = canvas.line_height(font) * 1.1;
-  for (const auto& line : canvas.wrapped(words, font, rest.width)) {
+  for (const auto& line : lines_of(canvas, words, font, rest.width)) {
     canvas.text(line, {rest.left, rest.top + height / 2}, font);
     rest = {rest.left, rest.top + height, rest.width, rest.height - height};
   }
@@ -21,14 +31,14 @@ Box take_lines(Canvas& canvas, Box rest, const std::string& words, const Font& f
 }
 
 double height_of(Canvas& canvas, const std::string& words, const Font& font, double width) {
-  return static_cast<double>(canvas.wrapped(words, font, width).size()) * canvas.line_height(font) * 1.1;
+  return static_cast<double>(lines_of(canvas, words, font, width).size()) * canvas.line_height(font) * 1.1;
 }
 
 }  // namespace
 
-std::string Figure::png() const {
-  Canvas canvas(width, height);
-  Box page{margin, margin, width - 2 * margin, height - 2 * margin};
+std::string Figure::bytes(Format format) const {
+  Canvas canvas({width, height, scale}, format);
+  Box page{margin, margin, width / scale - 2 * margin, height / scale - 2 * margin};
   page = take_lines(canvas, page, title, headline);
   const double foot = height_of(canvas, note, small_print, page.width);
   take_lines(canvas, {page.left, page.bottom() - foot, page.width, foot}, note, small_print);
@@ -44,11 +54,12 @@ std::string Figure::png() const {
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const std::size_t column = i % across;
     if (column == 0) left = area.left;
-    const double top = area.top + static_cast<double>(i / across) * (tall + gutter);
+    const std::size_t row = i / across;
+    const double top = area.top + static_cast<double>(row) * (tall + gutter);
     panels[i].draw(canvas, {left, top, unit * widths[column], tall});
     left += unit * widths[column] + gutter;
   }
-  return canvas.png();
+  return canvas.bytes(title);
 }
 
 }  // namespace plot

@@ -11,13 +11,14 @@ namespace plot {
 struct Figure {
   int width = 1600;  // pixels
   int height = 1200;
+  double scale = 1;  // of letters, lines and everything
   int columns = 1;
   std::string title;
   std::string note;                 // a line or two below the panels
   std::vector<double> shares = {};  // of the columns' widths; equal when empty
   std::vector<Panel> panels = {};   // row by row
 
-  std::string png() const;
+  std::string bytes(Format format) const;
 };
 
 }  // namespace plot

@@ -17,6 +17,8 @@ constexpr double tick_length = 7;
 constexpr double tick_distance = 110;  // about, along an axis
 constexpr double key_width = 44;       // of a line in a legend
 constexpr double colour_bar_width = 26;
+constexpr int colour_bar_steps = 200;
+constexpr double overlap = 1.5;  // of neighbouring areas that share an edge
 
 void widen(Range& range, double value) {
   if (range.low > range.high) range = {value, value};
@@ -37,7 +39,11 @@ double widest(Canvas& canvas, const std::vector<Tick>& ticks) {
 }
 
 std::vector<Tick> ticks_of(const Axis& axis, const Scale& scale, double length) {
-  return axis.ticks.empty() ? scale.ticks(static_cast<int>(length / tick_distance)) : axis.ticks;
+  if (axis.ticks.empty()) return scale.ticks(static_cast<int>(length / tick_distance));
+  std::vector<Tick> seen;
+  for (const auto& tick : axis.ticks)
+    if (scale.share(tick.value) >= 0 && scale.share(tick.value) <= 1) seen.push_back(tick);
+  return seen;
 }
 
 void draw_x_ticks(Canvas& canvas, const View& view, const std::vector<Tick>& ticks) {
@@ -54,10 +60,13 @@ void draw_x_ticks(Canvas& canvas, const View& view, const std::vector<Tick>& tic
 }
 
 void draw_y_ticks(Canvas& canvas, const View& view, const std::vector<Tick>& ticks) {
+  double last = -1e9;
   for (const auto& tick : ticks) {
     const double y = view.box.bottom() - view.box.height * view.y.share(tick.value);
     canvas.polyline({{view.box.left - tick_length, y}, {view.box.left, y}}, rim);
+    if (std::abs(y - last) < canvas.line_height(tick_font)) continue;
     canvas.text(tick.label, {view.box.left - tick_length - gap / 2, y}, tick_font, Align::End);
+    last = y;
   }
 }
 
@@ -113,24 +122,32 @@ void Panel::dots(const std::vector<Point>& points, double radius, Colour fill, c
 
 void Panel::cells(const std::vector<Cell>& cells) {
   for (const auto& cell : cells) include({{cell.x.low, cell.y.low}, {cell.x.high, cell.y.high}});
-  elements_.push_back(
-      {[=](Canvas& canvas, const View& view) {
-         for (const auto& cell : cells) {
-           const Point from = view({cell.x.low, cell.y.high}), to = view({cell.x.high, cell.y.low});
-           // Whole pixels: edges that two cells share leave no seam.
-           const double left = std::floor(from.x), top = std::floor(from.y);
-           canvas.box({left, top, std::max(1.0, std::floor(to.x) - left), std::floor(to.y) - top}, cell.colour);
-         }
-       },
-       "",
-       {}});
+  elements_.push_back({[=](Canvas& canvas, const View& view) {
+                         for (const auto& cell : cells) {
+                           const Point from = view({cell.x.low, cell.y.high}), to = view({cell.x.high, cell.y.low});
+                           // Each reaches below those to its right and under it, which come later: no seam shows
+                           // between them.
+                           canvas.box({from.x, from.y, to.x - from.x + overlap, to.y - from.y + overlap}, cell.colour);
+                         }
+                       },
+                       "",
+                       {}});
 }
 
 void Panel::name(Point at, const std::string& words, Point away) {
   include({at});
   elements_.push_back({[=](Canvas& canvas, const View& view) {
                          const Point anchor = view(at);
-                         canvas.text_over(words, {anchor.x + away.x, anchor.y + away.y}, label_font, Align::Middle);
+                         // A name that would leave the box stands on the other side of its point.
+                         const double half = canvas.text_width(words, label_font) / 2;
+                         const double low = canvas.line_height(label_font) / 2;
+                         const auto side = [](double from, double step, double low_end, double high_end) {
+                           return from + step < low_end || from + step > high_end ? from - step : from + step;
+                         };
+                         canvas.text_over(words,
+                                          {side(anchor.x, away.x, view.box.left + half, view.box.right() - half),
+                                           side(anchor.y, away.y, view.box.top + low, view.box.bottom() - low)},
+                                          label_font, Align::Middle);
                        },
                        "",
                        {}});
@@ -142,11 +159,14 @@ void Panel::colour_bar(const Scale& scale, const std::string& label) { bar_ = {s
 
 Scale Panel::scale_of(const Axis& axis, const Range& data) const {
   if (axis.range) return {axis.kind, axis.range->low, axis.range->high};
+  if (data.low > data.high) return {axis.kind, 1, 10};  // nothing is drawn
   if (axis.kind == Scale::Kind::Logarithmic) {
-    const double air = std::pow(data.high / data.low, 0.05);
+    const double air = data.high > data.low ? std::pow(data.high / data.low, 0.05) : 2;
     return {axis.kind, data.low / air, data.high * air};
   }
-  const double extent = data.high > data.low ? data.high - data.low : 1;
+  // Of a single value the axis shows a piece that its own digits can tell apart.
+  const double least = std::max(std::abs(data.low), std::abs(data.high)) * 1e-9;
+  const double extent = data.high - data.low > least ? data.high - data.low : least > 0 ? 1e9 * least : 1;
   return {axis.kind, data.low - 0.04 * extent, data.high + 0.04 * extent};
 }
 
@@ -204,6 +224,16 @@ void Panel::draw_elements(Canvas& canvas, const View& view) const {
   for (const auto& element : elements_) element.draw(canvas, view);
 }
 
+void Panel::draw_words(Canvas& canvas, const Box& box) const {
+  const double height = canvas.line_height(label_font);
+  const auto lines = canvas.wrapped(words, label_font, box.width - 2 * gap);
+  double y = box.top + (box.height - height * static_cast<double>(lines.size())) / 2 + height / 2;
+  for (const auto& line : lines) {
+    canvas.text_over(line, {box.left + box.width / 2, y}, label_font, Align::Middle);
+    y += height;
+  }
+}
+
 // A map: no axes, but a bar that tells the scale.
 void Panel::draw_map(Canvas& canvas, Box rest) const {
   const double strip = canvas.line_height(tick_font) + gap;
@@ -222,8 +252,10 @@ Box Panel::draw_colour_bar(Canvas& canvas, Box rest) const {
   const auto ticks = scale.ticks(6);
   const double words = widest(canvas, ticks) + canvas.line_height(label_font) + tick_length + 3 * gap;
   const Box bar{rest.right() - words - colour_bar_width, rest.top, colour_bar_width, rest.height};
-  for (int row = 0; row < static_cast<int>(bar.height); ++row)
-    canvas.box({bar.left, bar.bottom() - row - 1, bar.width, 1.5}, viridis(row / bar.height));
+  const double step = bar.height / colour_bar_steps;
+  for (int row = 0; row < colour_bar_steps; ++row)  // from the top, each over the one before
+    canvas.box({bar.left, bar.top + row * step, bar.width, row + 1 < colour_bar_steps ? step + overlap : step},
+               viridis(1 - (row + 0.5) / colour_bar_steps));
   canvas.frame(bar, rim);
   for (const auto& tick : ticks) {
     const double y = bar.bottom() - bar.height * scale.share(tick.value);
@@ -252,9 +284,11 @@ void Panel::draw_axes(Canvas& canvas, Box rest) const {
     view.box = {box.left + beside, box.top, box.width - beside - beyond, box.height};
   }
   view = fitted(view);
+  if (!words.empty()) x_ticks.clear(), y_ticks.clear();
 
   draw_grid(canvas, view, x_ticks, y_ticks);
   draw_elements(canvas, view);
+  draw_words(canvas, view.box);
   canvas.frame(view.box, rim);
   draw_x_ticks(canvas, view, x_ticks);
   draw_y_ticks(canvas, view, y_ticks);

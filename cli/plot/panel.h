@@ -41,11 +41,13 @@ class Panel {
   std::string title;
   Axis x, y;
   bool equal_aspect = false;   // one unit is as long upwards as it is sideways
+  std::string words;           // in the middle: why there is nothing to see
   std::string unit_of_length;  // when set: no axes, a bar of a round length in this unit instead (maps)
 
   void area(const std::vector<Point>& ring, Colour fill, const std::string& label = "");
   void line(const std::vector<Point>& points, const Stroke& stroke, const std::string& label = "");
   void dots(const std::vector<Point>& points, double radius, Colour fill, const std::string& label = "");
+  // From left to right and from top to bottom.
   void cells(const std::vector<Cell>& cells);
   // Words beside a point; `away` says in which direction, in pixels.
   void name(Point at, const std::string& words, Point away);
@@ -67,6 +69,7 @@ class Panel {
   Box draw_colour_bar(Canvas& canvas, Box rest) const;
   void draw_map(Canvas& canvas, Box rest) const;
   void draw_axes(Canvas& canvas, Box rest) const;
+  void draw_words(Canvas& canvas, const Box& box) const;
   void draw_elements(Canvas& canvas, const View& view) const;
   View fitted(View view) const;
 

@@ -27,7 +27,7 @@ class Scale {
 
  private:
   std::vector<Tick> linear_ticks(int wanted) const;
-  std::vector<Tick> logarithmic_ticks() const;
+  std::vector<Tick> logarithmic_ticks(int wanted) const;
 
   Kind kind_ = Kind::Linear;
   double low_ = 0;
@@ -39,5 +39,8 @@ double round_down(double value);
 
 // Fixed digits, without trailing zeros: "0.05", "3", "1200".
 std::string plain(double value, int decimals);
+
+// With an exponent, as short as those decimals allow: "1.25e-7", "2e6".
+std::string scientific(double value, int decimals);
 
 }  // namespace plot

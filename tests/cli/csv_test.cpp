@@ -102,13 +102,40 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Csv, ColumnsAreTakenByNameOrNumberInTheOrderAskedFor) {
   const std::string text = "id,x,y\n7,1,2\n8,3,4\n";
-  EXPECT_EQ(parse_csv(text, "t", {"y", "x"}).values, (std::vector<double>{2, 1, 4, 3}));
-  EXPECT_EQ(parse_csv(text, "t", {"2", "3"}).values, (std::vector<double>{1, 2, 3, 4}));
-  EXPECT_EQ(parse_csv(text, "t", {"y", "2"}).names, (std::vector<std::string>{"y", "x"}));
+  EXPECT_EQ(parse_csv(text, "t", {{"y", "x"}}).values, (std::vector<double>{2, 1, 4, 3}));
+  EXPECT_EQ(parse_csv(text, "t", {{"2", "3"}}).values, (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(parse_csv(text, "t", {{"y", "2"}}).names, (std::vector<std::string>{"y", "x"}));
 }
 
 TEST(Csv, ColumnsThatAreNotTakenMayHoldAnything) {
-  EXPECT_EQ(parse_csv("name,x\nHöfn,1\n,2\n", "t", {"x"}).values, (std::vector<double>{1, 2}));
+  EXPECT_EQ(parse_csv("name,x\nHöfn,1\n,2\n", "t", {{"x"}}).values, (std::vector<double>{1, 2}));
+}
+
+TEST(Csv, GapsAreReadAsNanWhenAskedFor) {
+  const auto values = parse_csv("x,y\n1,nan\n,2\nNaN,-NAN\n", "t", {{}, true}).values;
+  const std::vector<bool> gaps{false, true, true, false, true, true};
+  ASSERT_EQ(values.size(), gaps.size());
+  for (std::size_t i = 0; i < gaps.size(); ++i) EXPECT_EQ(std::isnan(values[i]), gaps[i]) << i;
+}
+
+std::string refusal(const std::string& text, const TableRules& rules) {
+  try {
+    parse_csv(text, "log.csv", rules);
+    return "accepted";
+  } catch (const Failure& failure) {
+    return failure.what();
+  }
+}
+
+TEST(Csv, GapsAreRefusedWithTheCallersWayOut) {
+  EXPECT_EQ(refusal("x,y\n1,2\n3,nan\n", {{}, false, "close it"}),
+            "log.csv, line 3, column 2 (y): 'nan' is a gap; close it, or else fill the cell in, remove the line, or "
+            "leave the column out with --columns.");
+  EXPECT_EQ(refusal("1,\n", {}),
+            "log.csv, line 1, column 2: is empty; fill the cell in, remove the line, or leave the column out with "
+            "--columns.");
+  EXPECT_NE(refusal("1,inf\n", {{}, true}).find("'inf' is not finite; correct it"), std::string::npos);
+  EXPECT_NE(refusal("1,km\n2,3\n1,nanometre\n", {{}, true}).find("'km' is not a number"), std::string::npos);
 }
 
 struct Misuse {
@@ -124,7 +151,7 @@ class MisusedTable : public testing::TestWithParam<Misuse> {};
 TEST_P(MisusedTable, IsRefusedWithItsPlaceAndTheWayOut) {
   const auto& misuse = GetParam();
   try {
-    parse_csv(misuse.text, "coast.csv", misuse.columns);
+    parse_csv(misuse.text, "coast.csv", {misuse.columns});
     FAIL() << "was accepted";
   } catch (const Failure& failure) {
     EXPECT_EQ(failure.code, misuse.code);
@@ -161,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(
                "x,y\n3,14,2,7\n",
                {"line 2", "4 values where line 1 has 2", "decimal commas?"}},
         Misuse{"quoted_decimal_commas", "\"3,14\",\"2,7\"\n", {"'3,14'", "decimal comma"}},
-        Misuse{"nan", "1,2\nnan,3\n", {"line 2, column 1", "'nan' is not finite", "remove the line"}},
+        Misuse{"nan", "1,2\nnan,3\n", {"line 2, column 1", "'nan' is a gap", "remove the line"}},
         Misuse{"infinity", "1,-inf\n", {"line 1, column 2", "'-inf' is not finite"}},
         Misuse{"empty_cell", "x,y\n1,\n", {"line 2, column 2 (y)", "is empty", "remove the line"}},
         Misuse{"word", "x,y\n1,2\n3,abc\n", {"line 3, column 2 (y)", "'abc' is not a number"}},

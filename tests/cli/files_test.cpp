@@ -78,6 +78,18 @@ TEST_F(Files, ADeviceIsWrittenToAndStaysADevice) {
   EXPECT_EQ(code_of([] { write_file("/dev/full", "no room"); }), Exit::Output);
 }
 
+TEST_F(Files, SeveralAreWrittenTogetherOrNotAtAll) {
+  write_files({{at("a"), "1"}, {at("b"), "2"}}, Existing::Refused);
+  EXPECT_EQ(read_file(at("a")) + read_file(at("b")), "12");
+  EXPECT_EQ(code_of([&] { write_files({{at("c"), "3"}, {at("a"), "4"}}, Existing::Refused); }), Exit::Output);
+  EXPECT_EQ(code_of([&] { write_files({{at("c"), "3"}, {at("missing/d"), "4"}}, Existing::Replaced); }), Exit::Output);
+  EXPECT_EQ(code_of([&] { write_files({{at("c"), "3"}, {at("c"), "4"}}, Existing::Refused); }), Exit::Output);
+  EXPECT_EQ(read_file(at("a")), "1");
+  EXPECT_EQ(count(), 2u);  // c was placed, and removed again
+  write_files({{at("a"), "5"}, {at("b"), "6"}}, Existing::Replaced);
+  EXPECT_EQ(read_file(at("a")) + read_file(at("b")), "56");
+}
+
 TEST_F(Files, WhatCannotBeReadIsAnInputFailure) {
   EXPECT_EQ(code_of([&] { read_file(at("missing")); }), Exit::Input);
   EXPECT_EQ(code_of([&] { read_file(folder_.string()); }), Exit::Input);

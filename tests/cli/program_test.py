@@ -10,6 +10,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "ifsm"
 
@@ -193,8 +194,250 @@ class Reports(Program):
     def test_version_and_help(self):
         self.assertRegex(self.fine("--version"), r"^ifsm \d+\.\d+\.\d+\n$")
         self.assertIn("Exit codes", self.fine("--help"))
-        for command in ("fit", "info", "synth", "eval"):
+        for command in ("fit", "info", "synth", "eval", "plot"):
             self.assertIn("Examples", self.fine(command, "--help"))
+
+
+class Gaps(Program):
+    points = [(k, k * k % 7) for k in range(12)]
+
+    def log(self, missing):
+        rows = [("nan", "") if k in missing else point for k, point in enumerate(self.points)]
+        return self.file("log.csv", "x,y\n" + "".join(f"{x},{y}\n" for x, y in rows))
+
+    def samples(self, path):
+        return numbers(self.fine("synth", self.file(path)))
+
+    def test_are_refused_with_both_ways_out(self):
+        self.refused(3, "log.csv, line 5, column 1 (x): 'nan' is a gap; cut the curve there with --gaps split, go "
+                     "straight across with --gaps bridge, or else ", "fit", self.log([3]), "-o", self.file("m.ifsm"))
+        self.refused(2, "neither split nor bridge", "fit", self.log([3]), "--gaps", "skip", "-o", self.file("m.ifsm"))
+
+    def test_split_a_curve_into_models(self):
+        result = run("fit", self.log([3, 4, 8]), "--gaps", "split", "--no-fit", "--json", "-o", self.file("p-%d.ifsm"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 gaps, 3 pieces", result.stderr)
+        self.assertEqual([model["samples"] for model in json.loads(result.stdout)["models"]], [3, 3, 3])
+        for name, piece in (("p-1.ifsm", self.points[:3]), ("p-2.ifsm", self.points[5:8]), ("p-3.ifsm", self.points[9:])):
+            self.assertLess(largest_gap(piece, self.samples(name)), 1e-12)
+
+    def test_bridged_stay_one_model(self):
+        result = run("fit", self.log([0, 3, 4, 8]), "--gaps", "bridge", "--no-fit", "-o", self.file("m.ifsm"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 gaps bridged with 3 points", result.stderr)
+        self.assertIn("1 point of gaps at the ends cut off", result.stderr)
+        back = self.samples("m.ifsm")
+        self.assertEqual(len(back), 11)
+        self.assertLess(math.dist(back[2], (3, self.points[2][1] + (self.points[5][1] - self.points[2][1]) / 3)), 1e-12)
+
+    def test_several_models_never_share_or_replace_a_file_by_accident(self):
+        source, target = self.log([4]), self.file("p-%d.ifsm")
+        split = ("fit", source, "--gaps", "split", "--no-fit", "-q")
+        before = self.names()
+        self.refused(2, ["names one file for 2 curves", "log-%d.ifsm"], *split, "-o", self.file("m.ifsm"))
+        self.refused(2, "names one file", *split, "-o", "-")
+        self.file("p-2.ifsm", "mine")
+        self.refused(4, ["p-2.ifsm", "--overwrite"], *split, "-o", target)
+        self.assertEqual(self.names(), before + ["p-2.ifsm"])
+        self.assertEqual(self.file("p-2.ifsm").read_text(), "mine")
+        self.fine(*split, "--overwrite", "-o", target)
+        self.fine(*split, "-o", self.folder)
+        self.assertEqual(self.names(), sorted(before + ["log-1.ifsm", "log-2.ifsm", "p-1.ifsm", "p-2.ifsm"]))
+
+    def test_a_ring_with_gaps_falls_into_open_pieces(self):
+        result = run("fit", self.log([2, 7]), "--closed", "--gaps", "split", "--no-fit", "-o", self.folder)
+        self.assertIn("its pieces are open", result.stderr)
+        self.assertLess(largest_gap(self.samples("log-2.ifsm"), self.points[8:] + self.points[:2]), 1e-12)
+        self.assertIn("open", result.stdout)
+
+
+def frames(svg):
+    """The closed rectangles that are only stroked: one a panel, and one a colour bar."""
+    found = 0
+    for path in ElementTree.parse(svg).iter("{http://www.w3.org/2000/svg}path"):
+        words = path.get("d", "").split()
+        rectangle = len(words) == 15 and words[1:3] == words[13:15] and (words[2], words[4]) == (words[5], words[7])
+        found += rectangle and "fill:none" in path.get("style", "")
+    return found
+
+
+def size_of_png(path):
+    content = path.read_bytes()
+    assert content[:8] == b"\x89PNG\r\n\x1a\n" and content[-8:-4] == b"IEND", content[:16]
+    return int.from_bytes(content[16:20], "big"), int.from_bytes(content[20:24], "big")
+
+
+class Plot(Program):
+    def test_the_overview_of_a_model(self):
+        svg, png = self.file("p.svg"), self.file("p.png")
+        report = json.loads(self.fine("plot", self.model(), "--json", "-q", "-o", svg))
+        names = [panel["panel"] for panel in report["panels"]]
+        self.assertEqual(names, ["polygon", "attractor", "scalogram", "levels", "budgets", "residuals"])
+        self.assertEqual(frames(svg), len(names) + 1)  # the scalogram's colour bar
+        self.assertEqual(ElementTree.parse(svg).find("{http://www.w3.org/2000/svg}title").text, "ring.ifsm")
+        self.assertIn("polygon, attractor", self.fine("plot", self.model(), "-o", png))
+        self.assertEqual(size_of_png(png), (report["width"], report["height"]))
+
+    def test_sizes_and_titles(self):
+        png = self.file("p.png")
+        for size, expected in ((["--width", 640, "--height", 200], (640, 200)), (["--width", 304], (304, 278))):
+            self.fine("plot", self.model(), "--show", "curve", *size, "--title", "A title " * 60, "-q", "-o", png)
+            self.assertEqual(size_of_png(png), expected)
+
+    def test_the_numbers_are_those_of_the_other_commands(self):
+        model, picture = self.model(), self.file("p.svg")
+        report = json.loads(self.fine("plot", model, "--show", "samples,polygon,levels,budgets,residuals", "--details", 20,
+                                      "--json", "-q", "-o", picture))
+        shown = {panel["panel"]: panel["numbers"] for panel in report["panels"]}
+        self.assertEqual([tuple(p) for p in shown["samples"][0]["points"]], numbers(self.fine("synth", model)))
+        self.assertEqual([tuple(p) for p in shown["polygon"]["points"]], numbers(self.fine("synth", model, "--level", 0)))
+        out = self.file("out.csv")
+        for row in shown["levels"][1:3]:
+            told = json.loads(self.fine("synth", model, "--levels", row["levels"], "--resolve=values", "--json", "-o", out))
+            self.assertEqual((told["rms"], told["max"]), (row["rms"], row["max"]))
+        for row in shown["budgets"][:2]:
+            told = json.loads(self.fine("synth", model, "--details", row["budget"] - 5, "--resolve", "--json", "-o", out))
+            self.assertEqual((told["rms"], told["max"]), (row["rms"], row["max"]))
+        told = json.loads(self.fine("synth", model, "--details", 20, "--resolve", "--json", "-o", out))
+        self.assertEqual(shown["residuals"]["rms"], told["rms"])
+        self.assertEqual(len(shown["residuals"]["distances"]), 300)
+
+    def test_curves_alone(self):
+        svg = self.file("p.svg")
+        report = json.loads(self.fine("plot", ISLANDS, "--project", "--json", "-q", "-o", svg))
+        self.assertEqual([panel["panel"] for panel in report["panels"]], ["samples"])
+        self.assertEqual(len(report["panels"][0]["numbers"]), 20)
+        faroes, verde = (report["panels"][0]["numbers"][k]["points"][0] for k in (0, 19))
+        self.assertGreater(math.dist(faroes, verde), 5000)  # one plane for all
+        self.assertEqual(frames(svg), 1)
+        piped = subprocess.run([PROGRAM, "plot", "-", "--format", "png", "-o", "-"], input=table(rough_ring(50)).encode(),
+                               capture_output=True)
+        self.assertEqual(piped.stdout[1:4], b"PNG")
+        self.assertEqual(piped.stderr, b"")
+
+    def test_residuals_of_given_samples(self):
+        model, source = self.model(), self.file("r.csv", table([(x + 0.5, y) for x, y in rough_ring(300)]))
+        show = ("plot", model, "--show", "residuals", "-q", "-o", self.file("p.svg"))
+        report = json.loads(self.fine(*show, "--samples-file", source, "--closed", "--json"))
+        self.assertAlmostEqual(report["panels"][0]["numbers"]["rms"], 0.5)
+        self.refused(3, ["r.csv holds 2 points", "the model 300"], *show, "--samples-file", self.file("r.csv", "0,0\n1,1\n"))
+
+    def test_long_curves_make_no_huge_files(self):
+        points = [(math.sin(k * 0.7) * k, math.cos(k * 1.3) * k) for k in range(100000)]
+        svg = self.file("p.svg")
+        self.fine("fit", self.file("long.csv", table(points)), "--no-fit", "-q", "-o", self.file("long.ifsm"))
+        self.fine("plot", self.file("long.ifsm"), "--show", "scalogram", "-q", "-o", svg)
+        self.assertLess(svg.stat().st_size, 2_500_000)
+        graph = self.file("graph.csv", table([(y,) for _, y in points], "y"))
+        self.fine("plot", graph, "-q", "-o", svg)
+        self.assertLess(svg.stat().st_size, 500_000)
+
+    def test_misuse(self):
+        model, svg = self.model(), self.file("p.svg")
+        self.refused(2, ["'levls' is none of", "scalogram"], "plot", model, "--show", "levls", "-o", svg)
+        self.refused(2, ["neither .svg nor .png", "--format"], "plot", model, "-o", self.file("p.gif"))
+        self.refused(2, ["needs a model", "ifsm fit"], "plot", self.folder / "ring.csv", "--show", "levels", "-o", svg)
+        self.refused(2, "leave it out", "plot", self.folder / "ring.csv", "--samples-file", "x.csv", "-o", svg)
+        self.refused(2, "--width", "plot", model, "--width", 5, "-o", svg)
+        self.refused(2, "standard output", "plot", model, "--format", "svg", "--json", "-o", "-")
+        self.refused(4, "cannot be written", "plot", model, "-o", self.folder / "missing" / "p.svg")
+        self.refused(3, "is empty", "plot", self.file("e.csv", ""), "-o", svg)
+        self.assertFalse(svg.exists())
+
+
+ISLANDS = pathlib.Path(__file__).parents[2] / "data" / "islands" / "islands.geojson"
+
+
+class GeoJson(Program):
+    def rings(self):
+        features = json.loads(ISLANDS.read_text())["features"]
+        return [ring for feature in features for polygon in feature["geometry"]["coordinates"] for ring in polygon]
+
+    def test_every_ring_becomes_a_model_that_gives_it_back(self):
+        report = json.loads(self.fine("fit", ISLANDS, "--no-fit", "--json", "-q", "-o", self.folder))
+        rings = self.rings()
+        self.assertEqual(len(report["models"]), len(rings))
+        self.assertEqual(report["models"][0]["curve"], "Faroe Islands")
+        self.assertEqual(self.names()[0], "islands-01-Faroe_Islands.ifsm")
+        self.assertEqual(len(self.names()), len(rings))
+        for model, ring in list(zip(report["models"], rings))[::6]:
+            self.assertTrue(model["closed"])
+            self.assertLess(largest_gap(numbers(self.fine("synth", model["output"])), ring[:-1]), 1e-12)
+
+    def test_projected_and_back(self):
+        report = json.loads(self.fine("fit", ISLANDS, "--project", "--no-fit", "--json", "-q", "-o", self.file("i-%d")))
+        for model, ring in list(zip(report["models"], self.rings()))[::6]:
+            middle = "{longitude},{latitude}".format(**model["middle"])
+            told = json.loads(self.fine("synth", model["output"], "--geojson", "--unproject=" + middle))
+            self.assertEqual(told["geometry"]["type"], "Polygon")
+            self.assertLess(largest_gap(told["geometry"]["coordinates"][0], ring), 1e-12)
+            # Somewhere near the true size: a degree of latitude is 111 km.
+            heights = [y for _, y in ring]
+            diagonal = json.loads(self.fine("info", model["output"], "--json"))["diagonal"]
+            self.assertGreater(diagonal, 111 * (max(heights) - min(heights)))
+
+    def test_one_plane_for_all_keeps_them_in_their_places(self):
+        faroes = self.file("f.geojson", json.dumps(json.loads(ISLANDS.read_text())["features"][0]))
+        self.fine("fit", faroes, "--project=-6.9,61.9", "--no-fit", "-q", "-o", self.file("f-%02d.json"))
+        points = numbers(self.fine("synth", self.file("f-05.json")))
+        lon, lat = self.rings()[4][0]
+        self.assertAlmostEqual(points[0][0], 111.195080 * (lon + 6.9) * math.cos(math.radians(61.9)), places=4)
+        self.assertAlmostEqual(points[0][1], 111.195080 * (lat - 61.9), places=4)
+
+    def test_altitudes_are_metres_beside_kilometres(self):
+        line = {"type": "LineString", "coordinates": [[10, 60, 100], [10.1, 60.1, 250], [10.2, 60, 300]]}
+        source, model = self.file("track.geojson", json.dumps(line)), self.file("m.ifsm")
+        self.fine("fit", source, "--project", "--no-fit", "-o", model)
+        for altitude, point in zip((0.1, 0.25, 0.3), numbers(self.fine("synth", model))):
+            self.assertAlmostEqual(point[2], altitude)
+        told = json.loads(self.fine("synth", model, "--geojson", "--unproject", "10.1,60.05"))
+        self.assertLess(largest_gap(told["geometry"]["coordinates"], line["coordinates"]), 1e-9)
+        self.fine("fit", source, "--flat", "--no-fit", "-o", model)
+        self.assertEqual(json.loads(self.fine("info", model, "--json"))["dimension"], 2)
+
+    def test_across_the_180th_meridian(self):
+        line = {"type": "LineString", "coordinates": [[179, 1], [-179, 2], [-178, 1]]}
+        self.fine("fit", self.file("d.geojson", json.dumps(line)), "--project", "--no-fit", "-o", self.file("m.ifsm"))
+        points = numbers(self.fine("synth", self.file("m.ifsm")))
+        self.assertLess(points[2][0] - points[0][0], 3 * 111.2)
+        self.assertGreater(points[1][0], points[0][0])
+
+    def test_tables_are_projected_too(self):
+        source = self.file("t.csv", "lat,lon\n60,10\n60.1,10.1\n60,10.2\n")
+        self.fine("fit", "--project", source, "--columns", "lon,lat", "--no-fit", "-o", self.file("m.ifsm"))
+        self.assertAlmostEqual(numbers(self.fine("synth", self.file("m.ifsm")))[1][0], 0, places=9)
+        self.refused(3, ["point 1 is 200, 100", "in that order"], "fit", self.file("xy.csv", "200,100\n0,0\n"),
+                     "--project", "-o", self.file("x.ifsm"))
+
+    def test_misuse(self):
+        target = self.file("m.ifsm")
+        ring = {"type": "Polygon", "coordinates": [[[0, -70], [120, -70], [-120, -70], [0, -70]]]}
+        self.refused(3, "runs round a pole", "fit", self.file("a.geojson", json.dumps(ring)), "--project", "-o", target)
+        long = {"type": "LineString", "coordinates": [[0, 10], [0, 80]]}
+        self.refused(3, "wrong by more than a factor of two", "fit", self.file("l.geojson", json.dumps(long)),
+                     "--project", "-o", target)
+        self.refused(2, "no columns", "fit", ISLANDS, "--columns", "lon,lat", "-o", target)
+        self.refused(2, ["names one file for 20 curves", "islands-%d.ifsm"], "fit", ISLANDS, "-o", target)
+        self.refused(2, "'x' is no longitude and latitude", "fit", ISLANDS, "--project=x", "-o", target)
+        self.refused(3, "a Point is no curve", "fit", self.file("p.geojson", '{"type": "Point", "coordinates": [1, 2]}'),
+                     "-o", target)
+        self.assertFalse(target.exists())
+        source = self.file("one.csv", "1\n2\n4\n")
+        self.fine("fit", source, "--no-fit", "-q", "-o", target)
+        self.refused(2, "2 or 3 coordinates", "synth", target, "--geojson")
+        self.refused(2, "two columns", "fit", source, "--project", "-o", self.file("n.ifsm"))
+
+    def test_a_signal_leaves_none_of_several(self):
+        features = [{"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [rough_ring(9000)]}}] * 40
+        source = self.file("many.geojson", json.dumps({"type": "FeatureCollection", "features": features}))
+        process = subprocess.Popen([PROGRAM, "fit", source, "-q", "-o", self.file("m-%d.ifsm")],
+                                   stderr=subprocess.PIPE, preexec_fn=default_signals)
+        time.sleep(1.5)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertEqual(self.names(), ["many.geojson"])
 
 
 class Misuse(Program):
@@ -260,7 +503,9 @@ class Output(Program):
         source = self.file("in.csv", table(rough_ring(60)))
         before = self.names()
         self.refused(4, "cannot be written", "fit", source, "--no-fit", "-q", "-o", self.folder / "missing" / "m.ifsm")
-        self.refused(4, "is a directory", "fit", source, "--no-fit", "-q", "-o", self.folder)
+        self.refused(4, "is a directory", "synth", self.model(), "-o", self.folder)
+        before = self.names()
+        self.refused(4, "cannot be written", "fit", source, "--no-fit", "-q", "-o", str(self.folder / "missing") + "/")
         self.refused(4, "cannot be written", "fit", source, "--no-fit", "-q", "-o", "/dev/full")
         self.assertEqual(self.names(), before)
 

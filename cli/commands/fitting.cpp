@@ -1,0 +1,110 @@
+#include "commands/fitting.h"
+
+#include "failure.h"
+#include "models.h"
+#include "progress.h"
+
+namespace cli {
+namespace {
+
+constexpr int chosen_by_library = -1;
+constexpr int no_polish = -1;
+
+int shape_number(const std::string& text) {
+  if (text.empty()) return 0;
+  return text == "auto" ? chosen_by_library : std::stoi(text);
+}
+
+ifsm::Filter filter_of(const FitSettings& settings) {
+  return start_filter(settings.filter, shape_number(settings.control_points), shape_number(settings.maps));
+}
+
+ifsm::FitOptions options_of(const FitSettings& settings) {
+  ifsm::FitOptions options;
+  options.threads = settings.threads;
+  options.control_points = shape_number(settings.control_points);
+  options.maps = shape_number(settings.maps);
+  options.budgets = settings.budgets;
+  options.iterations = settings.iterations;
+  options.rounds = settings.rounds;
+  if (settings.polish) options.polish = *settings.polish > 0 ? *settings.polish : no_polish;
+  return options;
+}
+
+// Budgets that a curve of so many points can hold for sure; none is the library's own choice.
+std::vector<std::int64_t> fitting_budgets(const std::vector<std::int64_t>& budgets, const Samples& samples) {
+  const auto points = static_cast<std::int64_t>(samples.points.size()) / samples.dimension;
+  std::vector<std::int64_t> fitting;
+  for (const auto budget : budgets)
+    if (budget <= points) fitting.push_back(budget);
+  return fitting;
+}
+
+// What fails on one curve of several says which.
+template <class Work>
+auto naming(const std::string& curve, const Work& work) {
+  try {
+    return work();
+  } catch (const ifsm::Cancelled&) {
+    throw;
+  } catch (const ifsm::Error& error) {
+    if (curve.empty()) throw;
+    throw Failure(error.status == IFSM_ERROR_RANGE ? Exit::Usage : Exit::Computing, curve + ": " + error.what());
+  }
+}
+
+class Fitting {
+ public:
+  Fitting(const std::vector<Samples>& curves, const FitSettings& settings, bool quiet)
+      : curves_(curves), settings_(settings), progress_("fit", Progress::style_of_terminal(quiet)) {
+    if (settings.no_fit || !settings.filter.empty()) filter_ = filter_of(settings);
+    if (!settings.no_fit && !settings.filter.empty()) require_joined(filter_, settings.filter);
+  }
+
+  FittedModel model_of(std::size_t number, const ifsm::Cancel& token) {
+    const auto& samples = curves_[number];
+    if (settings_.no_fit) return {ifsm::Model(filter_, samples.curve()), std::nullopt};
+    auto options = options_of(settings_);
+    options.start = settings_.filter.empty() ? nullptr : &filter_;
+    if (curves_.size() > 1) options.budgets = fitting_budgets(settings_.budgets, samples);
+    options.cancel = &token;
+    options.progress = [this, number](double fraction, const std::string& stage) {
+      tell(number, fraction, stage);
+      return false;
+    };
+    auto fit = ifsm::fit_sparse({samples.curve()}, options);
+    auto model = fit.model(0);
+    return {std::move(model), std::move(fit)};
+  }
+
+ private:
+  void tell(std::size_t number, double fraction, const std::string& stage) {
+    const auto count = curves_.size();
+    const auto which = count > 1 ? "curve " + std::to_string(number + 1) + " of " + std::to_string(count) + ", " : "";
+    progress_.update((static_cast<double>(number) + fraction) / static_cast<double>(count), which + stage);
+  }
+
+  const std::vector<Samples>& curves_;
+  const FitSettings& settings_;
+  Progress progress_;
+  ifsm::Filter filter_;
+};
+
+}  // namespace
+
+std::vector<FittedModel> fitted_models(const std::vector<Samples>& curves, const FitSettings& settings,
+                                       const std::string& source, bool quiet, Interrupt& interrupt) {
+  const Interrupt::Cancellable job(interrupt);
+  Fitting fitting(curves, settings, quiet);
+  std::vector<FittedModel> models;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    std::string curve;
+    if (curves.size() > 1) curve.append(source).append(", curve ").append(std::to_string(i + 1));
+    if (!curve.empty() && !curves[i].place.empty()) curve.append(" (").append(curves[i].place).append(")");
+    models.push_back(naming(curve, [&] { return fitting.model_of(i, job.token()); }));
+    job.confirm();
+  }
+  return models;
+}
+
+}  // namespace cli

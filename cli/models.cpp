@@ -1,0 +1,77 @@
+#include "models.h"
+
+#include "failure.h"
+#include "files.h"
+#include "geojson.h"
+
+namespace cli {
+
+ifsm::Model load_model(const std::string& path) { return parse_model(read_file(path), input_name(path)); }
+
+ifsm::Model parse_model(std::string_view bytes, const std::string& source) {
+  if (bytes.empty()) throw Failure(Exit::Input, source + " is empty; expected a model written by ifsm fit.");
+  try {
+    return ifsm::Model::load({bytes.begin(), bytes.end()});
+  } catch (const ifsm::Error& error) {
+    const bool its_fault = error.status != IFSM_ERROR_MEMORY && error.status != IFSM_ERROR_INTERNAL;
+    throw Failure(its_fault ? Exit::Input : Exit::Computing, source + ": " + error.what());
+  }
+}
+
+bool looks_like_model(std::string_view bytes) {
+  constexpr unsigned map_of_cbor = 5;  // the major type, docs/format.md
+  const bool cbor = !bytes.empty() && static_cast<unsigned char>(bytes.front()) >> 5 == map_of_cbor;
+  return cbor || (looks_like_json(bytes) && bytes.find("\"ifsm-model\"") != bytes.npos);
+}
+
+namespace {
+
+// A name has neither a point nor a slash in it.
+bool is_path(const std::string& filter) { return filter.find_first_of("./") != std::string::npos; }
+
+ifsm::Filter filter_of_file(const std::string& path, int control_points, int maps) {
+  ifsm::Filter filter = load_model(path).filter();
+  const auto info = filter.describe();
+  const auto check = [&](const char* option, int asked, int has) {
+    if (asked != 0 && asked != has)
+      throw Failure(Exit::Usage, std::string(option) + " " + std::to_string(asked) + ", but the filter of " + path +
+                                     " has " + std::to_string(has) + "; leave the option away.");
+  };
+  check("--control-points", control_points, info.control_points);
+  check("--maps", maps, info.maps);
+  return filter;
+}
+
+// As a fit starts: coast where it has that shape.
+ifsm::Filter default_filter(int control_points, int maps) {
+  try {
+    return ifsm::Filter::named("coast", ifsm::Topology::joined, control_points, maps);
+  } catch (const ifsm::Error&) {
+    return ifsm::Filter::named("casteljau", ifsm::Topology::joined, control_points, maps);
+  }
+}
+
+}  // namespace
+
+ifsm::Filter start_filter(const std::string& name, int control_points, int maps) {
+  if (is_path(name)) return filter_of_file(name, control_points, maps);
+  if (name.empty()) return default_filter(control_points, maps);
+  try {
+    return ifsm::Filter::named(name, ifsm::Topology::joined, control_points, maps);
+  } catch (const ifsm::Error&) {
+  }
+  try {
+    return ifsm::Filter::named(name, ifsm::Topology::square, control_points, maps);
+  } catch (const ifsm::Error& error) {
+    throw Failure(Exit::Usage, std::string("--filter: ") + error.what());
+  }
+}
+
+void require_joined(const ifsm::Filter& filter, const std::string& name) {
+  if (filter.describe().topology != IFSM_TOPOLOGY_JOINED)
+    throw Failure(Exit::Usage, "--filter: '" + name +
+                                   "' is a square filter, and a fit starts from a joined one; use "
+                                   "casteljau, or fit with --no-fit to use the filter as it is.");
+}
+
+}  // namespace cli

@@ -1,0 +1,26 @@
+// Models and filters, as files and by name.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <ifsm.hpp>
+
+namespace cli {
+
+// A model file of either format. Throws Failure{Input}.
+ifsm::Model load_model(const std::string& path);
+
+// The same of bytes that were read from `source`.
+ifsm::Model parse_model(std::string_view bytes, const std::string& source);
+
+// Whether bytes mean to be a model, rather than a curve: CBOR, or JSON that says so.
+bool looks_like_model(std::string_view bytes);
+
+// What `--filter` names. A name: joined where it has that form, else square. A path (with a point or a slash in it):
+// the filter of that model. Empty: where a fit starts that is told nothing. 0 chooses the filter's own numbers. Throws
+// Failure{Usage, Input}.
+ifsm::Filter start_filter(const std::string& filter, int control_points, int maps);
+void require_joined(const ifsm::Filter& filter, const std::string& name);
+
+}  // namespace cli
