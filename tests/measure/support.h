@@ -2,6 +2,7 @@
 #pragma once
 
 #include "../curve/support.h"
+#include "measure/nearest.h"
 #include "measure/polyline.h"
 
 namespace ifsm::core::testing {
@@ -43,6 +44,25 @@ inline Points koch_curve(int levels) {
     rows = finer;
   }
   return points_from(rows);
+}
+
+inline void expect_same(const Nearest& a, const Nearest& b) {
+  EXPECT_EQ(a.parameters, b.parameters);
+  EXPECT_EQ(a.distances, b.distances);
+  EXPECT_EQ(a.points, b.points);
+}
+
+// Around the curve, on it, and far away.
+inline Points queries_about(const Points& curve, Random& random, Index count) {
+  const double size = diagonal(curve);
+  Points queries(curve.dimension(), count);
+  for (Index q = 0; q < count; ++q) {
+    const double reach = q % 4 == 0 ? 0.0 : q % 4 == 1 ? 1e-3 * size : q % 4 == 2 ? size : 1e6 * size;
+    for (Index axis = 0; axis < curve.dimension(); ++axis)
+      queries.matrix()(q, axis) = curve.matrix()(uniform(random, 0, curve.count() - 1), axis) + reach * normal(random);
+    if (q % 8 == 0) queries.matrix().row(q) = curve.matrix().row(q % curve.count());
+  }
+  return queries;
 }
 
 }  // namespace ifsm::core::testing
