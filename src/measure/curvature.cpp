@@ -78,11 +78,13 @@ void require_scale(const Polyline& polyline, const ArcLength& lengths, double sc
     throw Error(Status::range, "scale",
                 "scale is " + text_of(scale) + "; give a positive length in the samples' units.")
         .with(scale);
-  const double half = lengths.total() / 2;
-  if (polyline.closed() && scale / polyline.unit() > half)
+  const double most = polyline.closed() ? lengths.total() / 2 : lengths.total();
+  // A curve without length has no direction either, which is told of its parameters.
+  if (most > 0 && scale / polyline.unit() > most)
     throw Error(Status::range, "scale",
-                "scale is " + text_of(scale) + ", more than half the ring's length, " +
-                    text_of(half * polyline.unit()) + "; give a smaller one.")
+                "scale is " + text_of(scale) + ", more than " +
+                    (polyline.closed() ? "half the ring's" : "the curve's") + " length, " +
+                    text_of(most * polyline.unit()) + "; give a smaller one.")
         .with(scale);
 }
 

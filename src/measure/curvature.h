@@ -15,7 +15,7 @@ namespace ifsm::core {
 // Of an arc of a circle of radius r it is (5/3) j2(w) / j1(w)² / r with w = scale / r (spherical Bessel functions, the
 // projections of sine and cosine): 1/r · (1 + 0.13 w² + …). The integrals over the straight pieces are exact.
 //
-// Errors: a scale that is not positive, or more than half a ring's length; a curve on a line (one dimension); an arc
+// Errors: a scale that is not positive, or above the curve's length (a ring's: half); a curve of one dimension; an arc
 // without direction, as that of a point, or one that comes back (numerical, with the parameter's index).
 std::vector<double> curvature(const Polyline& polyline, std::span<const double> parameters, double scale);
 

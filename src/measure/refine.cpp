@@ -12,9 +12,14 @@
 namespace ifsm::core {
 namespace {
 
+// A row for each inner place of a segment: at most maps - 1 = 7, of at most four coordinates and one number more. They
+// never allocate.
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 7, 5>;
+using Shares = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 7, 1>;
+
 // Numbers of one segment: independent of all others, whatever the order.
-Eigen::MatrixXd normal_matrix(Index rows, Index columns, std::uint64_t seed, std::uint32_t stream, Index segment) {
-  Eigen::MatrixXd numbers(rows, columns);
+Rows normal_matrix(Index rows, Index columns, std::uint64_t seed, std::uint32_t stream, Index segment) {
+  Rows numbers(rows, columns);
   const Index pairs = (numbers.size() + 1) / 2;
   for (Index k = 0; k < pairs; ++k) {
     const auto two = normal_pair(seed, stream, static_cast<std::uint64_t>(segment * pairs + k));
@@ -41,35 +46,35 @@ class Displacements {
         across_(square_root(texture.across).transpose()) {}
 
   // Of the inner places of a segment that goes `way`; `size`: the root of their mean square, all together.
-  Eigen::MatrixXd operator()(const Eigen::RowVectorXd& way, double size, int level, Index segment) const {
+  Rows operator()(const Direction& way, double size, int level, Index segment) const {
     const double length = way.stableNorm();
-    if (!(size > 0)) return Eigen::MatrixXd::Zero(along_.rows(), way.size());
-    const Eigen::RowVectorXd direction = direction_of(way);
+    if (!(size > 0)) return Rows::Zero(along_.rows(), way.size());
+    const Direction direction = direction_of(way);
     constexpr int attempts = 16;
     for (int attempt = 0;; ++attempt) {
-      Eigen::MatrixXd off = asked_.roughness * size * drawn(direction, stream(level, attempt), segment);
+      Rows off = asked_.roughness * size * drawn(direction, stream(level, attempt), segment);
       if (way.size() == 1 || in_order(off * direction.transpose() / length)) return off;
-      if (attempt == attempts) return Eigen::MatrixXd::Zero(along_.rows(), way.size());
+      if (attempt == attempts) return Rows::Zero(along_.rows(), way.size());
     }
   }
 
  private:
   static std::uint32_t stream(int level, int attempt) { return static_cast<std::uint32_t>(level + 64 * attempt); }
 
-  Eigen::MatrixXd drawn(const Eigen::RowVectorXd& direction, std::uint32_t stream, Index segment) const {
+  Rows drawn(const Direction& direction, std::uint32_t stream, Index segment) const {
     const Index d = direction.size();
     // The first column goes along the segment. In the plane the second goes to its left, so that a curve that is turned
     // has the same texture, turned; in space d more make a vector of which what is across is taken.
-    const Eigen::MatrixXd numbers = normal_matrix(along_.rows(), d > 2 ? d + 1 : d, asked_.seed, stream, segment);
-    const Eigen::MatrixXd forward = along_ * numbers.col(0) * direction;
+    const Rows numbers = normal_matrix(along_.rows(), d > 2 ? d + 1 : d, asked_.seed, stream, segment);
+    const Rows forward = along_ * numbers.col(0) * direction;
     if (d == 1) return forward;
     if (d == 2) return forward + across_ * numbers.col(1) * Eigen::RowVector2d(-direction(1), direction(0));
-    const Eigen::MatrixXd any = across_ * numbers.rightCols(d);
+    const Rows any = across_ * numbers.rightCols(d);
     return forward + any - (any * direction.transpose()) * direction;
   }
 
   // Do the inner places, moved forward by these shares of the segment, still come one after the other between its ends?
-  static bool in_order(const Eigen::VectorXd& moved) {
+  static bool in_order(const Shares& moved) {
     double last = 0;
     const auto maps = static_cast<double>(moved.size() + 1);
     for (Index i = 0; i < moved.size(); ++i) {
@@ -81,7 +86,7 @@ class Displacements {
   }
 
   const Refinement& asked_;
-  Eigen::MatrixXd along_, across_;  // square roots
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 7, 7> along_, across_;  // square roots
 };
 
 double root_mean_square(const std::vector<double>& values) {
@@ -106,7 +111,7 @@ class Sizes {
     weight_ = root_mean_square(lengths);
   }
 
-  double of(const Eigen::RowVectorXd& way) const {
+  double of(const Direction& way) const {
     if (same_) return all_;
     return weight_ > 0 ? all_ * std::min(way.stableNorm(), most_) / weight_ : 0.0;
   }
@@ -124,7 +129,7 @@ void fill_gaps(Points& places, const std::vector<char>& known, const Texture& te
   for (Index place = 1; place < places.count(); ++place) {
     if (known[static_cast<std::size_t>(place)] == 0) continue;
     if (place - last == maps) {
-      const Eigen::RowVectorXd way = places.matrix().row(place) - places.matrix().row(last);
+      const Direction way = places.matrix().row(place) - places.matrix().row(last);
       places.matrix().middleRows(last + 1, maps - 1) += displacements(way, sizes.of(way), 0, last);
     }
     last = place;
@@ -139,8 +144,8 @@ Points subdivided(const Points& coarse, const Sizes& sizes, int level, const Dis
   constexpr Index chunk = 1024;
   parallel_for((segments + chunk - 1) / chunk, 0, [&](Index part) {
     for (Index s = part * chunk; s < std::min((part + 1) * chunk, segments); ++s) {
-      const Eigen::RowVectorXd a = coarse.matrix().row(s), way = coarse.matrix().row(s + 1) - a;
-      const Eigen::MatrixXd off = displacements(way, sizes.of(way), level, s);
+      const Direction a = coarse.matrix().row(s), way = coarse.matrix().row(s + 1) - a;
+      const Rows off = displacements(way, sizes.of(way), level, s);
       fine.matrix().row(s * maps) = a;
       for (Index i = 1; i < maps; ++i)
         fine.matrix().row(s * maps + i) =

@@ -25,6 +25,6 @@ struct Refinement {
 // there; in one dimension all are alike. Vectors that would bring a segment's places out of their order along it are
 // drawn again (not in one dimension, where that is no fault), which takes some of the mean square away: on coasts a
 // fifth. The curve may cross itself. The same bits on any number of threads.
-ModelPtr refine(const Model& model, const Refinement& refinement);
+ModelPtr refine(const Model& model, const Refinement& asked);
 
 }  // namespace ifsm::core

@@ -23,27 +23,27 @@ Moments moments(const Points& places, const std::vector<char>& known, int maps, 
   for (Index first = 0; first + length < places.count(); first += length) {
     const auto within = known.begin() + first;
     if (step == 1 && std::count(within, within + length, char{0}) > 0) continue;
-    const Eigen::RowVectorXd a = places.matrix().row(first), way = places.matrix().row(first + length) - a;
-    Eigen::MatrixXd off(inner, d);
+    const Direction a = places.matrix().row(first), way = places.matrix().row(first + length) - a;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 7, 4> off(inner, d);  // never allocates
     for (Index i = 0; i < inner; ++i)
       off.row(i) = places.matrix().row(first + (i + 1) * step) - a -
                    (static_cast<double>(i + 1) / static_cast<double>(maps)) * way;
     sum.segments += 1;
-    const Eigen::RowVectorXd direction = direction_of(way);
-    const Eigen::VectorXd forward = off * direction.transpose();
+    const Direction direction = direction_of(way);
+    const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 7, 1> forward = off * direction.transpose();
     sum.along += forward * forward.transpose();
     if (d == 1) continue;
-    const Eigen::MatrixXd sideways = off - forward * direction;
-    sum.across += sideways * sideways.transpose() / static_cast<double>(d - 1);
+    off -= forward * direction;  // what is left goes sideways
+    sum.across += off * off.transpose() / static_cast<double>(d - 1);
   }
   return sum;
 }
 
 }  // namespace
 
-Eigen::RowVectorXd direction_of(const Eigen::RowVectorXd& way) {
+Direction direction_of(const Direction& way) {
   const double length = way.stableNorm();
-  return length > 0 && way.size() > 1 ? Eigen::RowVectorXd(way / length) : Eigen::RowVectorXd::Unit(way.size(), 0);
+  return length > 0 && way.size() > 1 ? Direction(way / length) : Direction(Direction::Unit(way.size(), 0));
 }
 
 Texture learn(const Points& places, const std::vector<char>& known, int maps, int levels, int scales) {

@@ -26,6 +26,7 @@ struct Texture {
 Texture learn(const Points& places, const std::vector<char>& known, int maps, int levels, int scales);
 
 // The direction of a segment's frame: its own; the first axis where it has none, and in one dimension.
-Eigen::RowVectorXd direction_of(const Eigen::RowVectorXd& way);
+using Direction = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 4>;
+Direction direction_of(const Direction& way);
 
 }  // namespace ifsm::core
