@@ -23,6 +23,8 @@ constexpr const char* footer =
     "  ifsm info coast.ifsm\n"
     "  ifsm synth coast.ifsm --details 64 --resolve=choice -o sketch.csv\n"
     "  ifsm eval coast.ifsm --at 0.25,0.5\n"
+    "  ifsm measure coast.ifsm\n"
+    "  ifsm refine coast.ifsm --levels 3 -o finer.ifsm\n"
     "\n"
     "ifsm COMMAND --help tells the options of a command.\n";
 
@@ -37,7 +39,9 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "ifsm " + ifsm::version());
   program.require_subcommand(1);
   program.footer(footer);
-  for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval}) add(program, session);
+  for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_measure, cli::add_nearest,
+                         cli::add_refine})
+    add(program, session);
   try {
     program.parse(argc, argv);
     return static_cast<int>(cli::Exit::Fine);

@@ -1,5 +1,7 @@
 #include "commands/command.h"
 
+#include <unistd.h>
+
 #include <map>
 
 #include "failure.h"
@@ -7,6 +9,10 @@
 
 namespace cli {
 namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
 
 const std::map<std::string, char> separators{{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"blank", ' '}};
 
@@ -30,6 +36,17 @@ void add_points_output(CLI::App& command, PointsOutput& output) {
 void PointsOutput::write(Table table) const {
   if (no_header) table.names.clear();
   write_file(path, format_csv(table, separators.at(separator)));
+}
+
+ifsm::Format format_of(const std::string& output, const std::string& format) {
+  if (!format.empty()) return format == "json" ? ifsm::Format::json : ifsm::Format::cbor;
+  return ends_with(output, ".json") ? ifsm::Format::json : ifsm::Format::cbor;
+}
+
+void check_model_output(const std::string& output, const std::string& format) {
+  if (output == "-" && format_of(output, format) == ifsm::Format::cbor && isatty(STDOUT_FILENO))
+    throw Failure(Exit::Usage, "CBOR is not for a terminal; add --format json, or name a file with -o.");
+  check_writable(output);
 }
 
 void refuse_json_beside_result(const Talk& talk, const std::string& output) {

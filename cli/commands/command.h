@@ -4,6 +4,7 @@
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <ifsm.hpp>
 
 #include "csv.h"
 #include "interrupt.h"
@@ -18,6 +19,9 @@ void add_fit(CLI::App& program, Session& session);
 void add_info(CLI::App& program, Session& session);
 void add_synth(CLI::App& program, Session& session);
 void add_eval(CLI::App& program, Session& session);
+void add_measure(CLI::App& program, Session& session);
+void add_nearest(CLI::App& program, Session& session);
+void add_refine(CLI::App& program, Session& session);
 
 // ---- options that several commands share
 
@@ -36,6 +40,10 @@ struct PointsOutput {
   void write(Table table) const;
 };
 void add_points_output(CLI::App& command, PointsOutput& output);
+
+// How a model is written: as --format says, else by the file's name. What cannot be written is refused beforehand.
+ifsm::Format format_of(const std::string& output, const std::string& format);
+void check_model_output(const std::string& output, const std::string& format);
 
 // The report goes to standard output; it cannot when the result does.
 void refuse_json_beside_result(const Talk& talk, const std::string& output);

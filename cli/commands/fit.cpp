@@ -1,6 +1,4 @@
 // ifsm fit: samples in, model out.
-#include <unistd.h>
-
 #include <memory>
 #include <optional>
 
@@ -51,15 +49,6 @@ CLI::Validator number_or_auto(int low, int high) {
       range);
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-ifsm::Format format_of(const FitArguments& arguments) {
-  if (!arguments.format.empty()) return arguments.format == "json" ? ifsm::Format::json : ifsm::Format::cbor;
-  return ends_with(arguments.output, ".json") ? ifsm::Format::json : ifsm::Format::cbor;
-}
-
 // What can be known to fail is said before the computation, not after it.
 void check_arguments(const FitArguments& arguments) {
   const bool automatic = arguments.control_points == "auto" || arguments.maps == "auto";
@@ -68,9 +57,7 @@ void check_arguments(const FitArguments& arguments) {
   if (automatic && !arguments.filter.empty())
     throw Failure(Exit::Usage, "auto chooses the shape, --filter has one already; give only one of them.");
   refuse_json_beside_result(arguments.talk, arguments.output);
-  if (arguments.output == "-" && format_of(arguments) == ifsm::Format::cbor && isatty(STDOUT_FILENO))
-    throw Failure(Exit::Usage, "CBOR is not for a terminal; add --format json, or name a file with -o.");
-  check_writable(arguments.output);
+  check_model_output(arguments.output, arguments.format);
 }
 
 ifsm::Filter start_filter(const FitArguments& arguments, const std::string& name) {
@@ -151,7 +138,7 @@ Json model_report(const FitArguments& arguments, const ifsm::Model& model, std::
   const auto info = model.describe();
   return {{"input", input_name(arguments.input)},
           {"output", arguments.output},
-          {"format", format_of(arguments) == ifsm::Format::json ? "json" : "cbor"},
+          {"format", format_of(arguments.output, arguments.format) == ifsm::Format::json ? "json" : "cbor"},
           {"bytes", bytes},
           {"samples", info.samples},
           {"dimension", info.dimension},
@@ -195,7 +182,7 @@ void run(const FitArguments& arguments, Session& session) {
     model = fit.model(0);
     json_of_fit = fit_report(fit);
   }
-  const auto bytes = save_model(model, format_of(arguments), arguments.output);
+  const auto bytes = save_model(model, format_of(arguments.output, arguments.format), arguments.output);
 
   if (arguments.output == "-") return;
   auto report = model_report(arguments, model, bytes);
