@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/parallel.h"
@@ -174,7 +173,11 @@ void require_refinement(const Model& model, const Refinement& asked) {
 ModelPtr refine(const Model& model, const Refinement& asked) {
   require_refinement(model, asked);
   const int maps = model.shape().maps();
-  Points places = points(model, model.levels());
+  // From the centre, in units of a power of two near the diagonal: squares neither overflow nor vanish, and samples
+  // keep their bits.
+  const double diagonal = model.parts().diagonal, unit = diagonal > 0 ? std::ldexp(1.0, std::ilogb(diagonal)) : 1.0;
+  Points places = line(model, model.levels());
+  places.matrix() /= unit;
   const std::vector<char> known = places_of_samples(model, places.count());
   const Texture texture = learn(places, known, maps, model.levels(), asked.learned);
   const Displacements displacements(texture, asked);
@@ -188,6 +191,8 @@ ModelPtr refine(const Model& model, const Refinement& asked) {
     once.matrix() = places.matrix().topRows(once.count());
     places = std::move(once);
   }
+  places.matrix() *= unit;
+  places = from_center(std::move(places), model.parts().center);
   return analyze(model.parts().filter, places, model.closed(), model.levels() + asked.levels);
 }
 

@@ -145,6 +145,22 @@ TEST(Refinement, TurnsAndScalesWithAPlaneCurve) {
   EXPECT_LE(distance(other, wanted), 1e-10 * diagonal(moved));
 }
 
+TEST(Refinement, IsTheSameForCurvesOfAnySize) {
+  Random random(9);
+  for (const Index dimension : {1, 2, 3}) {
+    const Points curve = random_curve(random, 100, dimension, Kind::walk);
+    const FilterPtr filter = casteljau(Shape(Topology::joined, 4, 2));
+    const Points fine = samples(*refine(*analyze(filter, curve, false), asked(2, 8)));
+    for (const double size : {0x1p-900, 0x1p900}) {
+      Points other = curve;
+      other.matrix() *= size;
+      Points told = samples(*refine(*analyze(filter, other, false), asked(2, 8)));
+      told.matrix() /= size;
+      EXPECT_LE(distance(told, fine), 1e-10 * diagonal(curve));
+    }
+  }
+}
+
 TEST(Refinement, NeverTurnsBackAlongTheSegmentThatItDivides) {
   Random random(7);
   for (const Index dimension : {2, 3})
