@@ -342,7 +342,8 @@ class Signals(Program):
         self.assertIsNone(process.poll(), "it ended before the signal: " + str(process.returncode))
         sent = time.monotonic()
         process.send_signal(number)
-        _, errors = process.communicate(timeout=60)
+        process.wait(timeout=60)  # communicate() would close its input first, and that may be noticed before the signal
+        _, errors = process.communicate()
         return process.returncode, time.monotonic() - sent, errors
 
     def test_a_signal_in_the_middle_of_a_fit_leaves_nothing(self):
