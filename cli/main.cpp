@@ -23,6 +23,8 @@ constexpr const char* footer =
     "  ifsm info coast.ifsm\n"
     "  ifsm synth coast.ifsm --details 64 --resolve=choice -o sketch.csv\n"
     "  ifsm eval coast.ifsm --at 0.25,0.5\n"
+    "  ifsm measure coast.ifsm\n"
+    "  ifsm refine coast.ifsm --levels 3 -o finer.ifsm\n"
     "  ifsm plot coast.ifsm -o coast.svg\n"
     "\n"
     "ifsm COMMAND --help tells the options of a command.\n";
@@ -38,7 +40,8 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", "ifsm " + ifsm::version());
   program.require_subcommand(1);
   program.footer(footer);
-  for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_plot, cli::add_train})
+  for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_plot, cli::add_measure,
+                         cli::add_nearest, cli::add_refine, cli::add_train})
     add(program, session);
   try {
     program.parse(argc, argv);

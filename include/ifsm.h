@@ -678,6 +678,175 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_train(const ifsm_curve *curves, int64_t 
                                               const ifsm_train_options *options, ifsm_filter *filter,
                                               ifsm_train_report *report);
 
+/* ------------------------------------------------------------------------------------------------------------
+ * Questions that people ask of a curve
+ *
+ * All are about the polyline through the model's finest places: the points that ifsm_model_points gives for level L,
+ * at the parameters of ifsm_model_evaluate. Each call builds what it needs anew: ask about many points at once. Lengths
+ * and distances are in the samples' units.
+ */
+
+/* Arc length from one parameter to another, along growing parameters; negative the other way, so that lengths add up.
+ *
+ * from, to   0 … 1; closed: any finite numbers, whole turns count (0 to 2 is twice round)
+ * length     [out]
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, NUMERICAL (no double is large enough), MEMORY. Any thread.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_length(ifsm_model model, double from, double to, double *length);
+
+/* Parameters of points that are equally far apart along the curve. Give one of:
+ *
+ * points       how many, 1 … 2^40, the other 0: open, both ends and between them (one point: the start); closed, once
+ *              round from parameter 0 on
+ * spacing      how far apart, > 0, the other 0: from the start on; what is left at the end is shorter
+ * parameters   [out] as many doubles as there are points, growing
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE (neither or both; more than 2^40 points), NOT_FINITE, CAPACITY, MEMORY. Any
+ * thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_spaced(ifsm_model model, int64_t points, double spacing,
+                                                     double *parameters, int64_t capacity, int64_t *count);
+
+/* The point of the curve nearest to each query; of several equally near, that of the smallest parameter.
+ *
+ * queries       borrowed: points of the model's dimension, interleaved
+ * query_count   doubles in `queries`
+ * rows          [out] for each query 2 + dimension doubles: parameter, distance, and the point of the curve
+ *
+ * A tree of boxes; the answer is that of comparing with every segment. Errors: INVALID_HANDLE, NULL, RANGE,
+ * NOT_FINITE, CAPACITY, NUMERICAL (a distance no double is large enough for), MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_nearest(ifsm_model model, const double *queries, int64_t query_count,
+                                                      double *rows, int64_t capacity, int64_t *count);
+
+/* How the curve bends, seen at a scale: curvature of the quadratic in arc length that is nearest, in least squares, to
+ * the arc within `scale` on both sides (an open curve's ends cut it short). A circle of radius r gives
+ * 1/r (1 + 0.13 (scale/r)² + …).
+ *
+ * scale             along the curve, > 0; at most its length, closed: half of it
+ * parameters        borrowed: as in ifsm_model_evaluate
+ * parameter_count   how many
+ * curvatures        [out] one for each parameter, in 1 / the samples' units: in the plane positive where the curve
+ *                   turns left, in space not negative
+ *
+ * Each takes time in proportion to the places within the scale. Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE,
+ * CAPACITY, SHAPE (a curve of one dimension), NUMERICAL (an arc without direction, such as one that comes back; index:
+ * the parameter), MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_curvature(ifsm_model model, double scale, const double *parameters,
+                                                        int64_t parameter_count, double *curvatures, int64_t capacity,
+                                                        int64_t *count);
+
+/* Where a plane curve meets itself: pairs of parameters p, q at the same point, p in an earlier segment.
+ *
+ * rows   [out] for each meeting 6 doubles: first p, first q, last p, last q, x, y of the first point. Where the curve
+ *        only passes, first and last are the same; along a piece that is gone twice p grows from first to last, and q
+ *        grows or, in the other direction, falls
+ *
+ * Whether segments meet is decided exactly. Places that repeat the one before count once. A segment owns its start and
+ * not its end, so that touching one of the curve's own places is told once; the common point of neighbours is no
+ * meeting, but one that turns back onto the other is. Pieces gone twice are told for each pair of segments, ends
+ * included. The work is done again when it is asked for after its count: give an array at once if you can.
+ * Parameter 1 of a closed curve is told as 0. Errors: INVALID_HANDLE, NULL, CAPACITY, SHAPE (not in the plane), LIMIT
+ * (more than 2^22), MEMORY. Any thread. Source: J. R. Shewchuk, Adaptive precision floating-point arithmetic and fast
+ * robust geometric predicates, 1997. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_crossings(ifsm_model model, double *rows, int64_t capacity,
+                                                        int64_t *count);
+
+/* What is counted at each scale. Boxes: the boxes of a grid with that side that the curve touches, the grid's corner at
+ * the bounding box's lowest; two and three dimensions. Divider: the steps of that length that a pair of compasses takes
+ * along the curve, the rest as the share of a step. */
+enum { IFSM_DIMENSION_BOXES = 0, IFSM_DIMENSION_DIVIDER = 1 };
+
+typedef struct ifsm_dimension_options {
+  uint32_t struct_size;
+  int32_t method;   /* IFSM_DIMENSION_… */
+  int32_t scales;   /* how many, 3 … 256, geometrically from the largest to the smallest; 0: 12 */
+  int32_t reserved; /* 0 */
+  double smallest;  /* from 2^-20 of the bounding box's diagonal on; 0: twice the mean segment, at most largest / 4 */
+  double largest;   /* at most the diagonal; 0: a quarter of it */
+} ifsm_dimension_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_dimension_options_init(ifsm_dimension_options *options, uint32_t size);
+
+typedef struct ifsm_dimension_report {
+  uint32_t struct_size;
+  int32_t scales;
+  double dimension;      /* minus the slope of log count over log scale, by least squares */
+  double standard_error; /* of the slope, from the scatter about the line */
+  double r_squared;      /* the share of log count's variance that the line explains */
+} ifsm_dimension_report;
+
+/* The fractal dimension, as counting tells it. Slopes over two decades are a few hundredths off: on Koch's curve 0.04.
+ *
+ * options   borrowed; NULL for defaults
+ * report    [out] with struct_size set
+ * rows      [out] for each scale 2 doubles: the scale, growing smaller (boxes: rounded to 2^-30 of the bounding box's
+ *           longest side), and the count
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, CAPACITY, OPTIONS, SHAPE (a curve that is a point; boxes in one or
+ * four dimensions), LIMIT (a scale at which more than 2^26 boxes or 2^31 steps might be visited), MEMORY. Any thread.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_dimension(ifsm_model model, const ifsm_dimension_options *options,
+                                                        ifsm_dimension_report *report, double *rows, int64_t capacity,
+                                                        int64_t *count);
+
+typedef struct ifsm_spectrum_report {
+  uint32_t struct_size;
+  int32_t levels;        /* L */
+  int32_t first;         /* the levels that were fitted: 2 … L - 2, or all when those are fewer than three */
+  int32_t last;
+  double hurst;          /* H of rms ~ scale^H, by least squares on logarithms; levels whose rms is 0 are left out.
+                            NaN, like the next three, when fewer than three levels are left */
+  double standard_error; /* of H, from the scatter about the line */
+  double r_squared;
+  double dimension;      /* that H implies if the law holds. One dimension: 2 - H, of the graph over the parameter.
+                            More: 1 / H, of the trail, if the samples are equally far apart along it. Within what is
+                            possible */
+} ifsm_spectrum_report;
+
+/* How rough the curve is, level by level.
+ *
+ * report   [out] with struct_size set
+ * rows     [out] for each level, coarsest first, 2 doubles: the scale, N^-level, which is the share of the parameters
+ *          that a node spans; and the root mean square over all places of what the level's details do to the curve:
+ *          their significances, in the samples' units
+ *
+ * Errors: INVALID_HANDLE, NULL, CAPACITY, OPTIONS, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_spectrum(ifsm_model model, ifsm_spectrum_report *report, double *rows,
+                                                       int64_t capacity, int64_t *count);
+
+typedef struct ifsm_refine_options {
+  uint32_t struct_size;
+  int32_t levels;    /* more than the model has, 1 … 40; 0: 1 */
+  uint64_t seed;     /* other seeds, other details */
+  int32_t learned;   /* how many scales are learnt from, the finest ones, 1 … 40; 0: 4 */
+  int32_t reserved;  /* 0 */
+  double roughness;  /* what the new displacements are multiplied with, > 0; 0: 1; -1: none */
+} ifsm_refine_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_refine_options_init(ifsm_refine_options *options, uint32_t size);
+
+/* Super-resolution: a model that goes on below the samples with random details like those that it has.
+ *
+ * model     borrowed; joined
+ * options   borrowed; NULL for defaults
+ * refined   [out] owned by the caller: the same filter, more levels; its samples are all its places
+ *
+ * Each segment's new places are displaced from the straight by normal vectors whose second moments, along the segment
+ * and across it, are those of the last scales, and whose mean square continues their trend (a straight line in
+ * logarithms). Old samples stay where they are, within what ifsm_model_create promises, and keep their parameters; the
+ * places between them too, but for gaps of N places, which are displaced as well. Segments share a level's mean square
+ * in proportion to their lengths, up to the root mean square of these (one dimension: all alike). Vectors that would
+ * turn a segment back on itself are drawn again, which costs some of the mean square (coasts: a fifth). The refined
+ * curve may cross itself: ask ifsm_model_crossings.
+ *
+ * Deterministic: the same seed gives the same bits on any number of threads. Errors: INVALID_HANDLE, NULL, RANGE,
+ * NOT_FINITE, OPTIONS, SHAPE (a square model), LIMIT (more than 2^40 places), NUMERICAL, MEMORY. Any thread.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_refine(ifsm_model model, const ifsm_refine_options *options,
+                                                     ifsm_model *refined);
+
 #ifdef __cplusplus
 }
 #endif

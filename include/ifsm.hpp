@@ -296,6 +296,42 @@ inline Keep most_significant(std::int64_t details) { return Keep(IFSM_KEEP_COUNT
 inline Keep above(double threshold) { return Keep(IFSM_KEEP_THRESHOLD).threshold(threshold); }
 
 // ------------------------------------------------------------------------------------------------------------------
+// Answers to questions about a curve
+
+// The point of the curve that is nearest to a query.
+struct Nearest {
+  double parameter;
+  double distance;
+  std::vector<double> point;
+};
+
+// Two parameters at one point; along a piece that is gone twice, from the first ones to the last.
+struct Crossing {
+  double first_p, first_q, last_p, last_q;
+  double x, y;  // of the first ones
+};
+
+enum class Count : std::int32_t { boxes = IFSM_DIMENSION_BOXES, divider = IFSM_DIMENSION_DIVIDER };
+
+struct Dimension {
+  ifsm_dimension_report report;
+  std::vector<double> scales, counts;
+};
+
+struct Spectrum {
+  ifsm_spectrum_report report;
+  std::vector<double> scales, rms;  // a level each
+};
+
+// What a refinement may be told; zero means the default everywhere, as in ifsm_refine_options.
+struct RefineOptions {
+  int levels = 0;
+  std::uint64_t seed = 0;
+  int learned = 0;
+  double roughness = 0;  // -1: none
+};
+
+// ------------------------------------------------------------------------------------------------------------------
 // Models
 
 class Model {
@@ -393,6 +429,72 @@ class Model {
     return make([&](ifsm_model* made) { return ifsm_model_keep(handle(), &rule.get(), made); });
   }
 
+  // Questions.
+  double length(double from = 0, double to = 1) const {
+    double length = 0;
+    detail::check(ifsm_model_length(handle(), from, to, &length));
+    return length;
+  }
+  // Parameters of so many points, equally far apart along the curve; or of points that far apart.
+  std::vector<double> spaced(std::int64_t points) const {
+    return fetch<double>([&](auto... to) { return ifsm_model_spaced(handle(), points, 0, to...); });
+  }
+  std::vector<double> spaced_by(double spacing) const {
+    return fetch<double>([&](auto... to) { return ifsm_model_spaced(handle(), 0, spacing, to...); });
+  }
+  std::vector<Nearest> nearest(const std::vector<double>& queries) const {
+    const std::vector<double> rows = fetch<double>([&](auto... to) {
+      return ifsm_model_nearest(handle(), queries.data(), detail::size_of(queries.size()), to...);
+    });
+    std::vector<Nearest> found;
+    const std::ptrdiff_t width = 2 + describe().dimension;
+    for (auto row = rows.begin(); row != rows.end(); row += width)
+      found.push_back({row[0], row[1], std::vector<double>(row + 2, row + width)});
+    return found;
+  }
+  std::vector<double> curvature(const std::vector<double>& parameters, double scale) const {
+    return fetch<double>([&](auto... to) {
+      return ifsm_model_curvature(handle(), scale, parameters.data(), detail::size_of(parameters.size()), to...);
+    });
+  }
+  std::vector<Crossing> crossings() const {
+    const std::vector<double> rows = fetch<double>([&](auto... to) { return ifsm_model_crossings(handle(), to...); });
+    std::vector<Crossing> found;
+    for (auto row = rows.begin(); row != rows.end(); row += 6)
+      found.push_back({row[0], row[1], row[2], row[3], row[4], row[5]});
+    return found;
+  }
+  // 0: the default number of scales, smallest and largest scale.
+  Dimension dimension(Count method = Count::boxes, int scales = 0, double smallest = 0, double largest = 0) const {
+    ifsm_dimension_options options{};
+    detail::check(ifsm_dimension_options_init(&options, sizeof options));
+    options.method = number(method);
+    options.scales = scales;
+    options.smallest = smallest;
+    options.largest = largest;
+    Dimension told{};
+    told.report.struct_size = sizeof told.report;
+    columns(fetch<double>([&](auto... to) { return ifsm_model_dimension(handle(), &options, &told.report, to...); }),
+            told.scales, told.counts);
+    return told;
+  }
+  Spectrum spectrum() const {
+    Spectrum told{};
+    told.report.struct_size = sizeof told.report;
+    columns(fetch<double>([&](auto... to) { return ifsm_model_spectrum(handle(), &told.report, to...); }), told.scales,
+            told.rms);
+    return told;
+  }
+  Model refine(const RefineOptions& wanted = {}) const {
+    ifsm_refine_options options{};
+    detail::check(ifsm_refine_options_init(&options, sizeof options));
+    options.levels = wanted.levels;
+    options.seed = wanted.seed;
+    options.learned = wanted.learned;
+    options.roughness = wanted.roughness;
+    return make([&](ifsm_model* made) { return ifsm_model_refine(handle(), &options, made); });
+  }
+
   ifsm_model handle() const noexcept { return handle_.get(); }
   ifsm_model release() noexcept { return handle_.release(); }  // the caller destroys it
 
@@ -404,6 +506,10 @@ class Model {
   template <class T, class Call>
   static std::vector<T> fetch(const Call& call) {
     return detail::fetch<T>(call);
+  }
+  // Rows of two.
+  static void columns(const std::vector<double>& rows, std::vector<double>& left, std::vector<double>& right) {
+    for (std::size_t i = 0; i + 1 < rows.size(); i += 2) left.push_back(rows[i]), right.push_back(rows[i + 1]);
   }
   template <class Call>
   static Model make(const Call& call) {

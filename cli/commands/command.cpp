@@ -1,6 +1,8 @@
 #include "commands/command.h"
 
+#include <unistd.h>
 #include <cmath>
+
 #include <map>
 
 #include "failure.h"
@@ -8,6 +10,10 @@
 
 namespace cli {
 namespace {
+
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
 
 const std::map<std::string, char> separators{{"comma", ','}, {"semicolon", ';'}, {"tab", '\t'}, {"blank", ' '}};
 
@@ -87,6 +93,17 @@ void tell_report(const Talk& talk, const std::string& output, const std::functio
   if (output == "-" || (talk.quiet && !talk.json)) return;
   const auto told = report();
   print(talk.json ? text_of(told) : in_words(told));
+}
+
+ifsm::Format format_of(const std::string& output, const std::string& format) {
+  if (!format.empty()) return format == "json" ? ifsm::Format::json : ifsm::Format::cbor;
+  return ends_with(output, ".json") ? ifsm::Format::json : ifsm::Format::cbor;
+}
+
+void check_model_output(const std::string& output, const std::string& format) {
+  if (output == "-" && format_of(output, format) == ifsm::Format::cbor && isatty(STDOUT_FILENO))
+    throw Failure(Exit::Usage, "CBOR is not for a terminal; add --format json, or name a file with -o.");
+  check_writable(output);
 }
 
 void refuse_json_beside_result(const Talk& talk, const std::string& output) {

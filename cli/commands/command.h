@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <ifsm.hpp>
 
 #include "csv.h"
 #include "curves.h"
@@ -24,6 +25,9 @@ void add_synth(CLI::App& program, Session& session);
 void add_eval(CLI::App& program, Session& session);
 void add_plot(CLI::App& program, Session& session);
 void add_train(CLI::App& program, Session& session);
+void add_measure(CLI::App& program, Session& session);
+void add_nearest(CLI::App& program, Session& session);
+void add_refine(CLI::App& program, Session& session);
 
 // ---- options that several commands share
 
@@ -55,6 +59,9 @@ void add_points_output(CLI::App& command, PointsOutput& output);
 // The end of every command whose result went to `output`: the report, if there is one to be told. It is made only then.
 void tell_report(const Talk& talk, const std::string& output, const std::function<Json()>& report,
                  std::string (*in_words)(const Json&));
+// How a model is written: as --format says, else by the file's name. What cannot be written is refused beforehand.
+ifsm::Format format_of(const std::string& output, const std::string& format);
+void check_model_output(const std::string& output, const std::string& format);
 
 // The report goes to standard output; it cannot when the result does.
 void refuse_json_beside_result(const Talk& talk, const std::string& output);

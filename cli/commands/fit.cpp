@@ -35,14 +35,7 @@ CLI::Validator number_or_auto(int low, int high) {
       range);
 }
 
-bool ends_with(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-ifsm::Format format_of(const FitArguments& arguments) {
-  if (!arguments.format.empty()) return arguments.format == "json" ? ifsm::Format::json : ifsm::Format::cbor;
-  return ends_with(arguments.output, ".json") ? ifsm::Format::json : ifsm::Format::cbor;
-}
+ifsm::Format format_of(const FitArguments& arguments) { return cli::format_of(arguments.output, arguments.format); }
 
 // What can be known to fail is said before the computation, not after it.
 void check_arguments(const FitArguments& arguments) {

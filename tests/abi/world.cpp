@@ -52,7 +52,9 @@ bool is_output(const std::string& kind) {
 
 World::World() {
   std::vector<double>& samples = doubles_["samples"];
-  for (int k = 0; k < 17; ++k) samples.insert(samples.end(), {1.0 * k, static_cast<double>((k * k) % 7)});
+  // The way back crosses the way there.
+  for (int k = 0; k < 17; ++k)
+    samples.insert(samples.end(), {k < 12 ? 1.0 * k : 23.0 - k, static_cast<double>((k * k) % 7)});
   doubles_["polygon"] = {0, 0, 1, 2, 3, 1};
   doubles_["parameters"] = {0, 0.25, 0.5, 1};
   ints_["symbols"] = {0, 1, 1};

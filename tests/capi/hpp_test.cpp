@@ -101,6 +101,32 @@ TEST(Cpp, ReadsEveryPartOfAModel) {
   EXPECT_EQ(model.significance(1).size(), 2u * 2);
 }
 
+TEST(Cpp, AsksEveryQuestion) {
+  const ifsm::Model model = wavy_model();
+  EXPECT_GT(model.length(), 10);
+  EXPECT_NEAR(model.length(0, 0.5) + model.length(0.5, 1), model.length(), 1e-12);
+  EXPECT_EQ(model.spaced(7).size(), 7u);
+  EXPECT_EQ(model.spaced_by(model.length() / 4).size(), 5u);
+  const auto nearest = model.nearest({0, 0, 5, 3});
+  ASSERT_EQ(nearest.size(), 2u);
+  EXPECT_NEAR(std::hypot(nearest[1].point[0] - 5, nearest[1].point[1] - 3), nearest[1].distance, 1e-12);
+  EXPECT_EQ(model.curvature({0.25, 0.5}, 1).size(), 2u);
+  EXPECT_TRUE(model.crossings().empty());
+  const auto dimension = model.dimension(ifsm::Count::divider, 5);
+  EXPECT_EQ(dimension.counts.size(), 5u);
+  EXPECT_EQ(dimension.report.scales, 5);
+  const auto spectrum = model.spectrum();
+  EXPECT_EQ(static_cast<int>(spectrum.rms.size()), spectrum.report.levels);
+  ifsm::RefineOptions finer;
+  finer.levels = 2;
+  EXPECT_EQ(model.refine(finer).describe().levels, model.describe().levels + 2);
+  const ifsm::Filter filter = model.filter();
+  const std::vector<double> points{0, 0, 2, 2, 2, 0, 0, 2};
+  const auto eight = ifsm::Model(filter, {points, 2, true}).crossings();
+  ASSERT_EQ(eight.size(), 1u);
+  EXPECT_NEAR(eight[0].x, 1, 1e-12);
+}
+
 TEST(Cpp, MakesOtherModels) {
   const ifsm::Model model = wavy_model();
   auto polygon = model.control_points();

@@ -194,7 +194,7 @@ class Reports(Program):
     def test_version_and_help(self):
         self.assertRegex(self.fine("--version"), r"^ifsm \d+\.\d+\.\d+\n$")
         self.assertIn("Exit codes", self.fine("--help"))
-        for command in ("fit", "info", "synth", "eval", "plot"):
+        for command in ("fit", "info", "synth", "eval", "plot", "measure", "nearest", "refine", "train"):
             self.assertIn("Examples", self.fine(command, "--help"))
 
 
@@ -523,6 +523,60 @@ class Output(Program):
                 result = subprocess.run([PROGRAM, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True)
                 self.assertEqual(result.returncode, 4, result.stderr)
                 self.assertIn("standard output", result.stderr)
+
+
+class Questions(Program):
+    def test_a_curve_is_measured(self):
+        points = rough_ring(300)
+        told = json.loads(self.fine("measure", self.model(), "--json"))
+        length = sum(math.dist(p, q) for p, q in zip(points, points[1:] + points[:1]))
+        self.assertAlmostEqual(told["length"], length, delta=1e-9 * length)
+        self.assertEqual(told["self_intersections"], 0)
+        for method in ("boxes", "divider"):
+            self.assertEqual(len(told[method]["scales"]), 12)
+            self.assertTrue(0.9 < told[method]["dimension"] < 1.5, told[method]["dimension"])
+        self.assertEqual(len(told["roughness"]["levels"]), json.loads(self.fine("info", self.model(), "--json"))["levels"])
+        words = self.fine("measure", self.model())
+        for word in ("length", "self-intersections", "box dimension", "divider dimension", "RMS"):
+            self.assertIn(word, words)
+
+    def test_what_has_no_answer_is_null(self):
+        model = self.file("profile.ifsm")
+        self.fine("fit", "-", "--no-fit", "-q", "-o", model, stdin="y\n0\n1\n0\n2\n")
+        told = json.loads(self.fine("measure", model, "--json"))
+        self.assertIsNone(told["self_intersections"])
+        self.assertIsNone(told["boxes"])
+        self.assertIsNotNone(told["divider"])
+        self.assertIn("self-intersections  -", self.fine("measure", model))
+
+    def test_nearest_points_are_a_table(self):
+        points = rough_ring(300)
+        rows = self.fine("nearest", self.model(), "-", stdin=table(points)).splitlines()
+        self.assertEqual(rows[0], "t,distance,x,y")
+        for point, row in zip(points, numbers("\n".join(rows[1:]))):
+            self.assertLess(row[1], 1e-9)
+            self.assertLess(math.dist(point, row[2:]), 1e-9)
+        self.refused(3, ["3 columns", "--columns"], "nearest", self.model(), "-", stdin="1,2,3\n")
+        self.refused(2, "both", "nearest", "-", "-", stdin="1,2\n")
+
+    def test_refining_is_seeded_and_keeps_the_samples(self):
+        model, finer, other = self.model(), self.file("finer.json"), self.file("other.json")
+        told = json.loads(self.fine("refine", model, "--levels", 2, "--seed", 3, "--json", "-o", finer))
+        self.assertEqual(told["places"], 4 * json.loads(self.fine("info", model, "--json"))["places"])
+        self.assertGreater(told["length"], told["length_before"])
+        self.fine("refine", model, "--levels", 2, "--seed", 3, "-o", other)
+        self.assertEqual(finer.read_bytes(), other.read_bytes())
+        self.fine("refine", model, "--levels", 2, "--seed", 4, "-q", "-o", other)
+        self.assertNotEqual(finer.read_bytes(), other.read_bytes())
+        smooth = json.loads(self.fine("refine", model, "--roughness", 0, "--json", "-o", other))
+        self.assertAlmostEqual(smooth["length"], smooth["length_before"], delta=1e-9 * smooth["length"])
+        places = self.file("near.csv")
+        self.fine("nearest", finer, "-", "-o", places, stdin=table(rough_ring(300)))
+        self.assertLess(max(row[1] for row in numbers(places.read_text())), 1e-9)
+        self.refused(2, "--levels", "refine", model, "--levels", 0, "-o", other)
+        square = self.file("square.ifsm")
+        self.fine("fit", "-", "--filter", "haar", "--no-fit", "-q", "-o", square, stdin=table(rough_ring(20)))
+        self.refused(1, "joined", "refine", square, "-o", other)
 
 
 class Train(Program):

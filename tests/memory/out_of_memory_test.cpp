@@ -119,6 +119,24 @@ ifsm_status save(World& world, std::int32_t format) {
                          &count);
 }
 
+ifsm_status dimension(World& world, std::int32_t method) {
+  ifsm_dimension_options options{};
+  options.struct_size = sizeof options;
+  options.method = method;
+  options.scales = 3;
+  ifsm_dimension_report report{};
+  report.struct_size = sizeof report;
+  std::int64_t count = 0;
+  return ifsm_model_dimension(world.model, &options, &report, world.room.data(), 4096, &count);
+}
+
+ifsm_status refine(World& world, std::uint64_t* made) {
+  ifsm_refine_options options{};
+  options.struct_size = sizeof options;
+  options.levels = 5;  // enough places to share among threads
+  return ifsm_model_refine(world.model, &options, as<ifsm_model>(made));
+}
+
 // World handed in, handle or nothing handed out.
 const Scenario scenarios[] = {
     {"cancel_create", "ifsm_cancel_create", 1, 1,
@@ -208,6 +226,51 @@ const Scenario scenarios[] = {
     {"model_keep_resolve", "ifsm_model_keep", 1, 1, keep_resolved, drop_model},
     {"model_keep_resolve_two_threads", "ifsm_model_keep", 2, 5, keep_resolved, drop_model},
     {"model_keep_choice", "ifsm_model_keep", 1, 5, keep_choice, drop_model},
+    {"model_length", "ifsm_model_length", 1, 1,
+     [](World& world, std::uint64_t*) {
+       double length = 0;
+       return ifsm_model_length(world.model, 0, 1, &length);
+     },
+     drop_nothing},
+    {"model_spaced", "ifsm_model_spaced", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_model_spaced(world.model, 0, 50, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"model_nearest", "ifsm_model_nearest", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_model_nearest(world.model, world.samples.data(), 40, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"model_curvature", "ifsm_model_curvature", 1, 1,
+     [](World& world, std::uint64_t*) {
+       const double parameters[] = {0.25, 0.5, 0.75};
+       std::int64_t count = 0;
+       return ifsm_model_curvature(world.model, 30, parameters, 3, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"model_crossings", "ifsm_model_crossings", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_model_crossings(world.model, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"model_dimension_boxes", "ifsm_model_dimension", 1, 1,
+     [](World& world, std::uint64_t*) { return dimension(world, IFSM_DIMENSION_BOXES); }, drop_nothing},
+    {"model_dimension_divider", "ifsm_model_dimension", 1, 1,
+     [](World& world, std::uint64_t*) { return dimension(world, IFSM_DIMENSION_DIVIDER); }, drop_nothing},
+    {"model_spectrum", "ifsm_model_spectrum", 1, 1,
+     [](World& world, std::uint64_t*) {
+       ifsm_spectrum_report report{};
+       report.struct_size = sizeof report;
+       std::int64_t count = 0;
+       return ifsm_model_spectrum(world.model, &report, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"model_refine", "ifsm_model_refine", 1, 1, refine, drop_model},
+    {"model_refine_two_threads", "ifsm_model_refine", 2, 1, refine, drop_model},
     {"model_save_json", "ifsm_model_save", 1, 1,
      [](World& world, std::uint64_t*) { return save(world, IFSM_FORMAT_JSON); }, drop_nothing},
     {"model_save_cbor", "ifsm_model_save", 1, 1,
