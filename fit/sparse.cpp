@@ -4,29 +4,25 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "curve/named.h"
 #include "curve/resolve.h"
-#include "curve/transform.h"
 #include "fit/minimise.h"
 #include "fit/parameters.h"
 #include "fit/projection.h"
+#include "fit/region.h"
 #include "fit/sparsity.h"
 
 namespace ifsm::core {
 namespace {
 
-constexpr int most_parameters = 1024;  // beyond, one linear solve takes longer than a cancel may
 constexpr Index default_budget = 128;
 constexpr int pursuit_trials = 12;  // while R still moves
 constexpr int last_pursuit_trials = 30;
 constexpr int polish_iterations = 10;  // the choice changes after them
 constexpr double sparse_tolerance = 1e-6;
 constexpr double polish_tolerance = 1e-4;
-constexpr double most_condition = 1e2;  // of R: beyond, details grow and cancel, and rounding passes 1e-12
-constexpr double most_growth = 3;       // coarse polygons in diagonals: beyond, they are no handles, and rounding shows
 constexpr double scale_of_error = 0.5;  // ε over the root of squared error per kept value
 
 // A curve with its tree, and what is solved on it again and again.
@@ -42,27 +38,6 @@ struct Job {
         data(lanes_of(line)),
         solver(start->shape(), start->levels(), start->closed(), sample_weights(*start)) {}
 };
-
-double largest_coordinate(std::span<const double> line) {
-  double largest = 0;
-  for (const double value : line) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
-// Of all levels, from the centre; infinite when a coordinate is not finite.
-double largest_polygon(const Shape& shape, const RowMatrix& inverse, const Points& line, int levels) {
-  double largest = 0;
-  for (Index axis = 0; axis < line.dimension(); ++axis) {
-    std::vector<double> fine(line.plane(axis).begin(), line.plane(axis).end());
-    for (int level = levels - 1; level >= 0; --level) {
-      std::vector<double> coarse(static_cast<std::size_t>(shape.line_length(level)));
-      coarsen_level(shape, inverse, fine, coarse);
-      largest = std::max(largest, largest_coordinate(coarse));
-      fine.swap(coarse);
-    }
-  }
-  return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
-}
 
 // The state of a fit: R, and for every curve and budget the best choice known under it.
 struct State {
@@ -81,6 +56,7 @@ class SparseFit {
         options_(options),
         watch_(watch) {
     for (const FitCurve& curve : curves_) jobs_.emplace_back(analyze(start_, curve.samples, curve.closed));
+    for (const Job& job : jobs_) neighbourhoods_.push_back(Neighbourhood::of(*job.start, job.line));
   }
 
   FitResult run() {
@@ -100,18 +76,9 @@ class SparseFit {
  private:
   Index details(Index budget) const { return budget - shape_.control_points(); }
 
-  // Coarse polygons that leave the curve's neighbourhood grow from level to level: R^-1 is bounded, its powers are not.
-  bool stays_near(const RowMatrix& matrix) const {
-    const RowMatrix inverse = inverse_of(shape_, matrix);
-    return std::ranges::all_of(jobs_, [&](const Job& job) {
-      return largest_polygon(shape_, inverse, job.line, job.start->levels()) <=
-             std::max(most_growth * job.start->parts().diagonal, 2 * job.start->parts().largest_polygon);
-    });
-  }
-
   MinimiseOptions minimise_options(int iterations, double tolerance, const char* stage) const {
     return {iterations, tolerance, std::max(most_condition, 2 * start_->condition()), stage,
-            [this](const RowMatrix& matrix) { return stays_near(matrix); }};
+            [this](const RowMatrix& matrix) { return stay_near(shape_, matrix, neighbourhoods_); }};
   }
 
   // Sums of logarithms of squared errors: budgets and curves of all sizes count alike.
@@ -276,38 +243,12 @@ class SparseFit {
   FitOptions options_;
   Watch& watch_;
   std::vector<Job> jobs_;
+  std::vector<Neighbourhood> neighbourhoods_;
   int iterations_ = 0;
   bool converged_ = true;
   double start_cost_ = 0;
   double final_cost_ = 0;
 };
-
-void require_curves(const std::vector<FitCurve>& curves) {
-  if (curves.empty()) throw Error(Status::range, "curve_count", "There is no curve to fit; give at least one.").with(0);
-  for (std::size_t c = 0; c < curves.size(); ++c) {
-    if (curves[c].samples.dimension() == curves[0].samples.dimension()) continue;
-    throw Error(Status::shape, "curves",
-                "Curve " + std::to_string(c) + " has dimension " + std::to_string(curves[c].samples.dimension()) +
-                    " and the first one " + std::to_string(curves[0].samples.dimension()) +
-                    "; curves that share a filter must have one dimension.")
-        .at(static_cast<Index>(c))
-        .with(static_cast<double>(curves[c].samples.dimension()));
-  }
-}
-
-FilterPtr require_start(FilterPtr start) {
-  if (!start->shape().joined())
-    throw Error(Status::range, "start",
-                "The fit needs a joined filter to start from; this one is square. Give \"casteljau\" with the joined "
-                "topology.");
-  if (free_count(start->shape()) > most_parameters)
-    throw Error(Status::limit, "start",
-                "A filter of this shape has " + std::to_string(free_count(start->shape())) +
-                    " free entries; the fit takes at most " + std::to_string(most_parameters) +
-                    ": use fewer control points or maps.")
-        .with(free_count(start->shape()));
-  return start;
-}
 
 // Vectors that all curves' models hold at least.
 Index fewest_vectors(const std::vector<FitCurve>& curves, const Shape& shape) {

@@ -4,14 +4,9 @@
 #include <vector>
 
 #include "base/cancel.h"
-#include "curve/model.h"
+#include "fit/fit.h"
 
 namespace ifsm::core {
-
-struct FitCurve {
-  Points samples;
-  bool closed = false;
-};
 
 struct FitOptions {
   FilterPtr start;             // joined; null: de Casteljau's of the shape below
@@ -21,34 +16,6 @@ struct FitOptions {
   int iterations = 40;         // of each round
   int sparse_rounds = 2;
   int polish_rounds = 8;  // 0: none
-};
-
-enum class FitReason : std::int32_t { converged = 0, iterations = 1, start_best = 2 };
-
-// The nearest sketch found, and how near it is to the samples.
-struct Sketch {
-  ModelPtr model;
-  double rms;
-  double max;
-};
-
-struct FitBudget {
-  Index budget;
-  Index details;
-  Sketch start;
-  Sketch fitted;
-};
-
-struct FitResult {
-  FilterPtr filter;
-  std::vector<ModelPtr> models;                 // exact, a curve each
-  std::vector<std::vector<FitBudget>> budgets;  // [curve][budget]; fitted never worse than start
-  FitReason reason = FitReason::converged;
-  int iterations = 0;
-  double start_cost = 0;  // the sparsity objective of the last round, of its start and of its end
-  double final_cost = 0;
-  double start_condition = 0;
-  double final_condition = 0;
 };
 
 // Fits one filter to curves of one dimension. Deterministic.

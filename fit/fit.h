@@ -1,0 +1,49 @@
+// What every stage of the fit takes and gives.
+#pragma once
+
+#include <vector>
+
+#include "curve/model.h"
+
+namespace ifsm::core {
+
+struct FitCurve {
+  Points samples;
+  bool closed = false;
+};
+
+enum class FitReason : std::int32_t { converged = 0, iterations = 1, start_best = 2 };
+
+// The nearest sketch found, and how near it is to the samples.
+struct Sketch {
+  ModelPtr model;
+  double rms;
+  double max;
+};
+
+struct FitBudget {
+  Index budget;
+  Index details;
+  Sketch start;
+  Sketch fitted;
+};
+
+struct FitResult {
+  FilterPtr filter;
+  std::vector<ModelPtr> models;                 // exact, a curve each
+  std::vector<std::vector<FitBudget>> budgets;  // [curve][budget]; fitted never worse than start
+  FitReason reason = FitReason::converged;
+  int iterations = 0;
+  double start_cost = 0;  // of the stage's objective; sparse: of the last round
+  double final_cost = 0;
+  double start_condition = 0;
+  double final_condition = 0;
+};
+
+// A range error when there is no curve, a shape error when dimensions differ.
+void require_curves(const std::vector<FitCurve>& curves);
+
+// The start, when a fit can take it: joined, and not too many free entries.
+FilterPtr require_start(FilterPtr start);
+
+}  // namespace ifsm::core

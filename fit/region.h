@@ -1,0 +1,27 @@
+// Where a fitted filter may go. R^-1 is bounded by R's condition number, its powers are not: analysis applies R^-1
+// level after level, so coarse polygons are looked at themselves.
+#pragma once
+
+#include <span>
+
+#include "curve/model.h"
+
+namespace ifsm::core {
+
+// Beyond, details grow and cancel, and rounding passes 1e-12.
+inline constexpr double most_condition = 1e2;
+
+// A curve whose polygons must stay near it under every filter on the way.
+struct Neighbourhood {
+  const Points* line;  // the finest line, from the centre: the same under every filter
+  int levels;
+  double largest;  // coordinate of a polygon, at most
+
+  // Three diagonals, or twice what the start's own polygons reach.
+  static Neighbourhood of(const Model& start, const Points& line);
+};
+
+// Are all coarse polygons of all curves in their neighbourhoods? Beyond, they are no handles, and rounding shows.
+bool stay_near(const Shape& shape, const RowMatrix& matrix, std::span<const Neighbourhood> curves);
+
+}  // namespace ifsm::core
