@@ -7,6 +7,8 @@
 
 namespace ifsm::core {
 
+struct Certainty;
+
 struct FitCurve {
   Points samples;
   bool closed = false;
@@ -38,6 +40,8 @@ struct FitResult {
   double final_cost = 0;
   double start_condition = 0;
   double final_condition = 0;
+  std::vector<std::vector<double>> parameters;  // stage curve: where each sample was fitted
+  std::shared_ptr<const Certainty> certainty;   // stages curve and filter
 };
 
 // A range error when there is no curve, a shape error when dimensions differ.
