@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fit/foot_points.h"
+#include "fit/refine.h"
 
 namespace ifsm::core {
 namespace {
@@ -124,7 +125,7 @@ CurveState CurveProblem::judged(CurveState state, const Loss& loss, int levels) 
 
 void CurveProblem::project(CurveState& state) const {
   for (std::size_t c = 0; c < targets_.size(); ++c) {
-    const Lanes places = polyline(shape_, levels_, state.matrix, state.controls[c]);
+    const Lanes places = refined(shape_, state.matrix, state.controls[c], 0, levels_);
     state.parameters[c] = foot_points(targets_[c], state.parameters[c], places, watch_);
   }
 }

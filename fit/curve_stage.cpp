@@ -189,14 +189,6 @@ void require_loss(const Loss& loss) {
       .with(loss.scale);
 }
 
-void require_tolerance(double tolerance) {
-  if (std::isfinite(tolerance) && tolerance > 0) return;
-  throw Error(std::isfinite(tolerance) ? Status::range : Status::not_finite, "tolerance",
-              "tolerance is " + text_of(tolerance) +
-                  "; give the relative fall, above 0, of the objective at which the fit stops.")
-      .with(tolerance);
-}
-
 }  // namespace
 
 FitResult fit_curve(const std::vector<FitCurve>& curves, const CurveOptions& options, Watch& watch) {
@@ -206,7 +198,6 @@ FitResult fit_curve(const std::vector<FitCurve>& curves, const CurveOptions& opt
   FilterPtr start =
       options.start ? options.start : named_filter("casteljau", Topology::joined, options.control_points, options.maps);
   start = require_start(std::move(start));
-  // T alone is fitted; U is its complement from the beginning.
   return CurveFit(curves, std::move(start), options, watch).run();
 }
 

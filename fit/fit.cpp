@@ -1,5 +1,7 @@
 #include "fit/fit.h"
 
+#include <cmath>
+
 #include "fit/parameters.h"
 
 namespace ifsm::core {
@@ -20,6 +22,14 @@ void require_curves(const std::vector<FitCurve>& curves) {
         .at(static_cast<Index>(c))
         .with(static_cast<double>(curves[c].samples.dimension()));
   }
+}
+
+void require_tolerance(double tolerance) {
+  if (std::isfinite(tolerance) && tolerance > 0) return;
+  throw Error(std::isfinite(tolerance) ? Status::range : Status::not_finite, "tolerance",
+              "tolerance is " + text_of(tolerance) +
+                  "; give the relative fall, above 0, of the objective at which the fit stops.")
+      .with(tolerance);
 }
 
 FilterPtr require_start(FilterPtr start) {

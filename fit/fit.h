@@ -47,6 +47,9 @@ struct FitResult {
 // A range error when there is no curve, a shape error when dimensions differ.
 void require_curves(const std::vector<FitCurve>& curves);
 
+// A range error unless it is above zero.
+void require_tolerance(double tolerance);
+
 // The start, when a fit can take it: joined, and not too many free entries.
 FilterPtr require_start(FilterPtr start);
 

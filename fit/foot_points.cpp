@@ -62,19 +62,6 @@ double nearest_place(const Foot& foot, double place, double low, double high) {
 
 }  // namespace
 
-Lanes polyline(const Shape& shape, int levels, const RowMatrix& matrix, const Lanes& control) {
-  const Eigen::MatrixXd maps = matrix.topRows(shape.control_points()).transpose();
-  Lanes coarse = control;
-  for (int level = 0; level < levels; ++level) {
-    Lanes fine(shape.line_length(level + 1), control.cols());
-    for (Index node = 0; node < shape.nodes(level); ++node)
-      fine.middleRows(node * shape.children_step(), shape.rows()).noalias() =
-          maps * coarse.middleRows(node * shape.polygon_step(), shape.control_points());
-    coarse.swap(fine);
-  }
-  return coarse;
-}
-
 std::vector<double> foot_points(const Target& target, const std::vector<double>& before, const Lanes& polyline,
                                 const Watch& watch) {
   const auto legs = static_cast<double>(polyline.rows() - 1);

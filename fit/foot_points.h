@@ -8,12 +8,9 @@
 
 namespace ifsm::core {
 
-// The polyline through the places of a level without details, a place a row.
-Lanes polyline(const Shape& shape, int levels, const RowMatrix& matrix, const Lanes& control);
-
-// Parameters at which no sample is farther from the polyline than before. They never change places: each moves less
-// than the way to its neighbour, forwards from the first sample on, then backwards from the last, so that a whole row
-// can move along in one call. The first stays, and an open curve's last.
+// Parameters at which no sample is farther from the polyline than before; the polyline is the curve's places, one a
+// row. They never change places: each moves less than the way to its neighbour, forwards from the first sample on, then
+// backwards from the last, so that a whole row can move along in one call. The first stays, and an open curve's last.
 std::vector<double> foot_points(const Target& target, const std::vector<double>& before, const Lanes& polyline,
                                 const Watch& watch);
 
