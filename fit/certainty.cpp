@@ -40,12 +40,17 @@ Eigen::MatrixXd control_covariance(const Certainty& certainty, std::size_t curve
   return own.spread + own.follow * certainty.filter * own.follow.transpose();
 }
 
+Index covariance_size(const Certainty& certainty) {
+  const int n = certainty.shape.control_points(), rows = certainty.shape.rows();
+  return static_cast<Index>(certainty.part == Part::maps ? n : rows - n) * rows;
+}
+
 Eigen::MatrixXd filter_covariance(const Certainty& certainty) {
   require_freedom(certainty);
   const int n = certainty.shape.control_points(), rows = certainty.shape.rows();
-  const int first = certainty.part == Part::maps ? 0 : n, height = certainty.part == Part::maps ? n : rows - n;
+  const int first = certainty.part == Part::maps ? 0 : n;
   const auto entries = free_entries(certainty.shape, certainty.part);
-  Eigen::MatrixXd lift = Eigen::MatrixXd::Zero(static_cast<Index>(height) * rows, static_cast<Index>(entries.size()));
+  Eigen::MatrixXd lift = Eigen::MatrixXd::Zero(covariance_size(certainty), static_cast<Index>(entries.size()));
   for (std::size_t p = 0; p < entries.size(); ++p) {
     const FreeEntry& entry = entries[p];
     lift((entry.row - first) * rows + entry.column, static_cast<Index>(p)) = 1;

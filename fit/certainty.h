@@ -36,6 +36,7 @@ struct Certainty {
 Eigen::MatrixXd control_covariance(const Certainty& certainty, std::size_t curve);
 // Of the entries of the part, row by row: C is n × rows, U is (rows - n) × rows.
 Eigen::MatrixXd filter_covariance(const Certainty& certainty);
+Index covariance_size(const Certainty& certainty);
 // Of the curve without details at parameters, dimension rows each.
 Lanes curve_covariance(const Certainty& certainty, std::size_t curve, std::span<const double> parameters,
                        const Watch& watch);

@@ -170,7 +170,7 @@ void require_consistent(const Target& target, const ConstraintSet& constraints, 
   const Index blamed = equations.constraint[static_cast<std::size_t>(held.conflict())];
   const Index unknowns = equations.left.cols();
   const std::string room = std::to_string(unknowns / target.dimension) + " control points have " +
-                           std::to_string(unknowns) + " coordinates, and the constraints before it hold " +
+                           std::to_string(unknowns) + " coordinates, and the constraints that agree hold " +
                            std::to_string(held.rank()) + " of them";
   if (blamed < 0)
     throw Error(Status::range, prefix + "fixed_ends",

@@ -119,6 +119,7 @@ class CurveFit {
 
   FitResult result(const CurveState& start, const CurveState& best) {
     FitResult result;
+    result.stage = Stage::curve;
     const bool same_filter = best.matrix == start_->matrix();
     result.filter = same_filter ? start_ : std::make_shared<Filter>(problem_.shape(), best.matrix);
     const int n = problem_.shape().control_points();

@@ -59,6 +59,7 @@ class FilterFit {
 
   FitResult result(Truncation& objective, const Minimised& found) {
     FitResult result;
+    result.stage = Stage::filter;
     const bool unchanged = found.matrix == start_->matrix();
     result.filter = unchanged ? start_ : std::make_shared<Filter>(shape_, found.matrix);
     for (std::size_t c = 0; c < curves_.size(); ++c) {

@@ -14,6 +14,8 @@ struct FitCurve {
   bool closed = false;
 };
 
+enum class Stage : std::int32_t { sparse = 0, curve = 1, filter = 2 };
+
 enum class FitReason : std::int32_t { converged = 0, iterations = 1, start_best = 2 };
 
 // The nearest sketch found, and how near it is to the samples.
@@ -31,6 +33,7 @@ struct FitBudget {
 };
 
 struct FitResult {
+  Stage stage = Stage::sparse;
   FilterPtr filter;
   std::vector<ModelPtr> models;                 // exact, a curve each
   std::vector<std::vector<FitBudget>> budgets;  // [curve][budget]; fitted never worse than start

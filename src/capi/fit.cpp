@@ -1,49 +1,19 @@
 #include <ifsm.h>
 
-#include <string>
-#include <vector>
-
-#include "base/cancel.h"
-#include "capi/arguments.h"
-#include "capi/curves.h"
+#include "capi/fit_options.h"
 #include "capi/guarded.h"
-#include "capi/log.h"
 #include "capi/nouns.h"
+#include "fit/certainty.h"
 #include "fit/sparse.h"
 
 using namespace ifsm::core;
 
 namespace {
 
-constexpr int64_t most_curves = int64_t{1} << 20;
 constexpr int64_t most_budgets = 64;
-constexpr int32_t chosen = -1;  // in C's options; the core says 0
-
-std::vector<FitCurve> curves_of(const ifsm_curve* curves, int64_t count) {
-  in_range(count, 1, most_curves, "curve_count");
-  required(curves, "curves");
-  std::vector<FitCurve> copies;
-  for (int64_t c = 0; c < count; ++c) {
-    const std::string prefix = "curves[" + std::to_string(c) + "].";
-    copies.push_back({samples_of(curves[c], prefix), is_closed(curves[c], prefix)});
-  }
-  return copies;
-}
-
-// A count whose zero means a default.
-int count_or(int32_t value, int32_t most, int otherwise, const char* argument) {
-  in_range(value, 0, most, argument);
-  return value == 0 ? otherwise : value;
-}
-
-// A count whose zero means a default and whose -1 means none, or "choose one".
-int count_or_none(int32_t value, int32_t most, int otherwise, const char* argument) {
-  in_range(value, chosen, most, argument);
-  return value == 0 ? otherwise : value == chosen ? 0 : value;
-}
 
 FitOptions options_of(const ifsm_fit_options& given) {
-  in_range(given.threads, 0, 1024, "threads");  // the stage runs on one; results never depend on it
+  check_threads(given.threads);
   in_range(given.reserved, 0, 0, "reserved");
   FitOptions options;
   options.start = borrow_if_any(given.start, "start");
@@ -58,20 +28,6 @@ FitOptions options_of(const ifsm_fit_options& given) {
   return options;
 }
 
-Watch::Progress progress_of(const ifsm_fit_options& given) {
-  if (given.progress == nullptr) return nullptr;
-  return [call = given.progress, user = given.user](double fraction, const char* stage) {
-    return call(user, fraction, stage) != 0;
-  };
-}
-
-void log_summary(const FitResult& fit) {
-  log(LogLevel::info,
-      ("ifsm_fit_sparse: " + std::to_string(fit.iterations) + " iterations, cost " + text_of(fit.start_cost) + " to " +
-       text_of(fit.final_cost) + ", condition " + text_of(fit.start_condition) + " to " + text_of(fit.final_condition))
-          .c_str());
-}
-
 std::size_t curve_in(const FitResult& fit, int64_t curve) {
   return static_cast<std::size_t>(in_range(curve, 0, static_cast<int64_t>(fit.models.size()) - 1, "curve"));
 }
@@ -79,6 +35,19 @@ std::size_t curve_in(const FitResult& fit, int64_t curve) {
 const FitBudget& budget_in(const FitResult& fit, int64_t curve, int64_t budget) {
   const auto& rows = fit.budgets[curve_in(fit, curve)];
   return rows[static_cast<std::size_t>(in_range(budget, 0, static_cast<int64_t>(rows.size()) - 1, "budget"))];
+}
+
+const Certainty& certainty_of(const FitResult& fit) {
+  if (fit.certainty) return *fit.certainty;
+  throw Error(Status::range, "fit", "A fit of stage sparse tells no covariance; ask one of stage curve or filter.");
+}
+
+const CurveCertainty& curve_certainty(const FitResult& fit, std::size_t curve) {
+  const Certainty& certainty = certainty_of(fit);
+  if (!certainty.curves.empty()) return certainty.curves[curve];
+  throw Error(Status::range, "fit",
+              "A fit of stage filter leaves the control points to analysis and tells no "
+              "covariance of them or of the curve; ask one of stage curve.");
 }
 
 }  // namespace
@@ -97,8 +66,59 @@ ifsm_status ifsm_fit_sparse(const ifsm_curve* curves, int64_t curve_count, const
     const auto samples = curves_of(curves, curve_count);
     Watch watch(token.get(), progress_of(read));
     auto result = std::make_shared<FitResult>(fit_sparse(samples, options, watch));
-    log_summary(*result);
+    log_summary("ifsm_fit_sparse", *result);
     issue(std::move(result), *fit);
+  });
+}
+
+ifsm_status ifsm_fit_parameters(ifsm_fit handle, int64_t curve, double* parameters, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const auto fit = borrow(handle);
+    const std::size_t c = curve_in(*fit, curve);
+    const Placement& placement = fit->models[c]->placement();
+    const auto where = [&] {
+      if (!fit->parameters.empty()) return fit->parameters[c];
+      std::vector<double> places;
+      for (Index k = 0; k < placement.samples(); ++k) places.push_back(placement.parameter(k));
+      return places;
+    };
+    deliver(placement.samples(), output(parameters, capacity, "parameters"), required(count, "count"), where);
+  });
+}
+
+ifsm_status ifsm_fit_covariance(ifsm_fit handle, int64_t curve, double* covariance, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const auto fit = borrow(handle);
+    const std::size_t c = curve_in(*fit, curve);
+    const CurveCertainty& own = curve_certainty(*fit, c);
+    const Index size = own.control.size();
+    deliver(size * size, output(covariance, capacity, "covariance"), required(count, "count"),
+            [&] { return control_covariance(*fit->certainty, c); });
+  });
+}
+
+ifsm_status ifsm_fit_filter_covariance(ifsm_fit handle, double* covariance, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const auto fit = borrow(handle);
+    const Index size = covariance_size(certainty_of(*fit));
+    deliver(size * size, output(covariance, capacity, "covariance"), required(count, "count"),
+            [&] { return filter_covariance(*fit->certainty); });
+  });
+}
+
+ifsm_status ifsm_fit_curve_covariance(ifsm_fit handle, int64_t curve, const double* parameters, int64_t parameter_count,
+                                      double* covariance, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const auto fit = borrow(handle);
+    const std::size_t c = curve_in(*fit, curve);
+    const Index dimension = curve_certainty(*fit, c).control.cols();
+    const auto at = input(parameters, parameter_count, "parameters", "parameter_count");
+    const auto values = [&] {
+      return curve_covariance(*fit->certainty, c, {at.data, static_cast<std::size_t>(at.count)}, Watch());
+    };
+    require_finite(at.data, at.count, "parameters");
+    deliver(checked_product(at.count, dimension * dimension, "parameter_count"),
+            output(covariance, capacity, "covariance"), required(count, "count"), values);
   });
 }
 
@@ -128,6 +148,11 @@ ifsm_status ifsm_fit_describe(ifsm_fit handle, ifsm_fit_report* report) {
     told.final_cost = fit->final_cost;
     told.start_condition = fit->start_condition;
     told.final_condition = fit->final_condition;
+    told.stage = static_cast<int32_t>(fit->stage);
+    if (fit->certainty) {
+      told.freedom = fit->certainty->freedom;
+      told.noise = fit->certainty->noise;
+    }
     Report(report, "report").write(told);
   });
 }

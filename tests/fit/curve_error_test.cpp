@@ -9,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "curve_rows.h"
 #include "curves.h"
 #include "fit/loss.h"
 
@@ -110,40 +111,6 @@ TEST(CurveError, HasTheGradientThatCentralDifferencesSeeControlPointsFollowingAn
   }
 }
 
-// All rows of a term by (control points, C), as a cost that Ceres can check and solve.
-class AllRows : public ceres::CostFunction {
- public:
-  AllRows(const Setting& setting, const CurveError& error) : setting_(setting), error_(error) {
-    const Target& target = setting.target;
-    set_num_residuals(static_cast<int>(target.count() * target.dimension));
-    mutable_parameter_block_sizes()->push_back(setting.shape.control_points() * static_cast<int>(target.dimension));
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(setting.parameters.size()));
-  }
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const int sizes[] = {parameter_block_sizes()[0], parameter_block_sizes()[1]}, all = sizes[0] + sizes[1];
-    Sink sink(num_residuals(), all);
-    const Eigen::Map<const Eigen::VectorXd> control(parameters[0], sizes[0]);
-    const Eigen::Map<const Eigen::VectorXd> maps(parameters[1], sizes[1]);
-    error_.rows(error_.terms()[0], setting_.matrix(maps), unstacked(control, setting_.target.dimension), sink);
-    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = sink.rows.rightCols(1);
-    for (int b = 0; b < 2; ++b)
-      if (jacobians != nullptr && jacobians[b] != nullptr)
-        Eigen::Map<RowMatrix>(jacobians[b], num_residuals(), sizes[b]) =
-            sink.rows.middleCols(b == 0 ? 0 : sizes[0], sizes[b]);
-    return sink.used == num_residuals();
-  }
-
- private:
-  struct Sink : RowSink {
-    Sink(int count, int parameters) : rows(count, parameters + 1) {}
-    double* row() override { return rows.row(used++).data(); }
-    RowMatrix rows;
-    int used = 0;
-  };
-  const Setting& setting_;
-  const CurveError& error_;
-};
-
 TEST(CurveError, PassesTheGradientCheckerOfCeresRowByRow) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "Eigen's allocation differs between this build and Ceres'";  // as in jacobian_test.cpp
@@ -151,7 +118,7 @@ TEST(CurveError, PassesTheGradientCheckerOfCeresRowByRow) {
   for (const Case& c : cases) {
     const Setting setting(c);
     const CurveError error = setting.error();
-    const AllRows cost(setting, error);
+    const CurveRows cost(setting.shape, setting.filter->matrix(), error);
     const std::vector<const ceres::Manifold*> no_manifolds(2, nullptr);
     const ceres::GradientChecker checker(&cost, &no_manifolds, ceres::NumericDiffOptions());
     const Eigen::VectorXd control = stacked(error.terms()[0].reference);
