@@ -1,5 +1,6 @@
 #include "fit/curve_error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -8,6 +9,12 @@
 
 namespace ifsm::core {
 namespace {
+
+// Control points are solved for to some condition number times eps, and the value to eps over the part of it that is
+// left: within these bounds (the product of the traces is at most the unknowns squared times the condition number) both
+// are below 1e-11.
+constexpr double well_conditioned = 1e5;
+constexpr double little_left = 1e-4;
 
 double slope_of(const CurveTerm& term, Index k) {
   return term.slopes.empty() ? 1.0 : term.slopes[static_cast<std::size_t>(k)];
@@ -73,57 +80,66 @@ std::optional<ControlFit> CurveError::solved_term(const CurveTerm& term, const R
   Eigen::VectorXd control = held.nearest(stacked(term.reference));
   double value = 0;
   Eigen::MatrixXd inverse;
-  // Twice: the second time it solves for what rounding in the form left over.
-  for (int round = 0; round < 2; ++round) {
-    const Quadratic now = quadratic(term, matrix, unstacked(control, term.target->dimension));
+  bool enough = false;
+  for (int round = 0; round < 2 && !enough; ++round) {
+    const Quadratic now = quadratic(term, matrix, unstacked(control, term.target->dimension), round == 0);
     if (round == 0) {
       const Eigen::MatrixXd form = held.free().transpose() * now.form * held.free();
       inverse = known_inverse(form, form.diagonal());
+      enough = form.trace() * inverse.trace() < well_conditioned;
     }
     const Eigen::VectorXd gradient = held.free().transpose() * now.gradient;
     const Eigen::VectorXd step = inverse * gradient;
     control = held.nearest(control - held.free() * step);
     value = now.value - gradient.dot(step);
+    // Else again: the second time it solves for what rounding left over.
+    enough = enough && value > little_left * now.value;
   }
   return ControlFit{unstacked(control, term.target->dimension), term.offset + std::max(value, 0.0)};
 }
 
 // Half the second derivative by the control points, half the first, and the value.
-CurveError::Quadratic CurveError::quadratic(const CurveTerm& term, const RowMatrix& matrix,
-                                            const Lanes& control) const {
+CurveError::Quadratic CurveError::quadratic(const CurveTerm& term, const RowMatrix& matrix, const Lanes& control,
+                                            bool with_form) const {
+  if (plain(term)) return plain_quadratic(term, matrix, control, with_form);
   const int n = shape_.control_points();
   const Index d = term.target->dimension, unknowns = n * d;
-  const bool is_plain = plain(term);
-  Normal normal(static_cast<int>(is_plain ? n + d - 1 : unknowns));  // (b | e), or W (b ⊗ 1 | e)
+  Normal normal(static_cast<int>(unknowns));  // W (b ⊗ 1 | e)
   Eigen::RowVectorXd error(d);
-  CurveWalk(shape_, levels_, matrix, watch_).basis(term.positions, [&](Index k, const double* values) {
-    const Eigen::Map<const Eigen::RowVectorXd> basis(values, n);
-    error.noalias() = basis * control;
+  CurveWalk(shape_, levels_, matrix, watch_).basis(term.positions, [&](Index k, const double* basis) {
+    error.noalias() = Eigen::Map<const Eigen::RowVectorXd>(basis, n) * control;
     error -= term.target->samples.row(k);
-    if (is_plain) {
-      Eigen::Map<Eigen::RowVectorXd> row(normal.row(), n + d);
-      const double root = root_weight(term, k);
-      row.head(n) = root * basis;
-      row.tail(d) = root * error;
-      return;
-    }
     const Lanes whitening = whitening_at(term, k);
     for (Index a = 0; a < d; ++a) {
       Eigen::Map<Eigen::RowVectorXd> row(normal.row(), unknowns + 1);
-      for (int i = 0; i < n; ++i) row.segment(i * d, d) = basis(i) * whitening.row(a);
+      for (int i = 0; i < n; ++i) row.segment(i * d, d) = basis[i] * whitening.row(a);
       row(unknowns) = whitening.row(a).dot(error);
     }
   });
   const Eigen::MatrixXd whole = normal.product().selfadjointView<Eigen::Lower>();
-  if (!is_plain)
-    return {whole.topLeftCorner(unknowns, unknowns), whole.row(unknowns).head(unknowns), whole(unknowns, unknowns)};
-  Quadratic result{Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd(unknowns),
-                   whole.bottomRightCorner(d, d).trace()};
-  for (int i = 0; i < n; ++i)
+  return {whole.topLeftCorner(unknowns, unknowns), whole.row(unknowns).head(unknowns), whole(unknowns, unknowns)};
+}
+
+// The same for weights, which keep coordinates apart: one form of n control points does for all.
+CurveError::Quadratic CurveError::plain_quadratic(const CurveTerm& term, const RowMatrix& matrix, const Lanes& control,
+                                                  bool with_form) const {
+  const Index n = shape_.control_points(), d = term.target->dimension;
+  Quadratic result{Eigen::MatrixXd::Zero(n * d, n * d), Eigen::VectorXd::Zero(n * d), 0};
+  Lanes form = Lanes::Zero(n, n);
+  CurveWalk(shape_, levels_, matrix, watch_).basis(term.positions, [&](Index k, const double* basis) {
+    const double root = root_weight(term, k), weight = root * root;
     for (Index a = 0; a < d; ++a) {
-      result.gradient(i * d + a) = whole(i, n + a);
-      for (int j = 0; j < n; ++j) result.form(i * d + a, j * d + a) = whole(i, j);
+      double error = -term.target->samples(k, a);
+      for (Index i = 0; i < n; ++i) error += basis[i] * control(i, a);
+      result.value += weight * error * error;
+      for (Index i = 0; i < n; ++i) result.gradient(i * d + a) += weight * error * basis[i];
     }
+    for (Index i = 0; with_form && i < n; ++i)
+      for (Index j = 0; j <= i; ++j) form(i, j) += weight * basis[i] * basis[j];
+  });
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j)
+      for (Index a = 0; a < d; ++a) result.form(i * d + a, j * d + a) = form(std::max(i, j), std::min(i, j));
   return result;
 }
 
@@ -159,14 +175,16 @@ Eigen::MatrixXd CurveError::product(const CurveTerm& term, const RowMatrix& matr
   std::vector<Normal> normals;  // a coordinate each: (b | tangent | e)
   for (Index a = 0; a < d; ++a) normals.emplace_back(n + count);
   CurveWalk(shape_, levels_, matrix, watch_)
-      .tangents(term.positions, control, [&](Index k, const double* values, const double* moved) {
-        const Eigen::Map<const Eigen::RowVectorXd> basis(values, n);
+      .tangents(term.positions, control, [&](Index k, const double* basis, const double* moved) {
         const double root = root_weight(term, k);
         for (Index a = 0; a < d; ++a) {
-          Eigen::Map<Eigen::RowVectorXd> row(normals[static_cast<std::size_t>(a)].row(), n + count + 1);
-          row.head(n) = root * basis;
-          row.segment(n, count) = root * Eigen::Map<const Eigen::RowVectorXd>(moved + a * count, count);
-          row(n + count) = root * (basis.dot(control.col(a)) - term.target->samples(k, a));
+          double* const row = normals[static_cast<std::size_t>(a)].row();
+          double error = -term.target->samples(k, a);
+          for (Index i = 0; i < n; ++i) error += basis[i] * control(i, a);
+          Eigen::Map<Eigen::RowVectorXd>(row, n) = root * Eigen::Map<const Eigen::RowVectorXd>(basis, n);
+          Eigen::Map<Eigen::RowVectorXd>(row + n, count) =
+              root * Eigen::Map<const Eigen::RowVectorXd>(moved + a * count, count);
+          row[n + count] = root * error;
         }
       });
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size, size);

@@ -63,7 +63,8 @@ class CurveError : public Objective {
     double value;
   };
 
-  Quadratic quadratic(const CurveTerm& term, const RowMatrix& matrix, const Lanes& control) const;
+  Quadratic quadratic(const CurveTerm& term, const RowMatrix& matrix, const Lanes& control, bool with_form) const;
+  Quadratic plain_quadratic(const CurveTerm& term, const RowMatrix& matrix, const Lanes& control, bool with_form) const;
   Held held(const CurveTerm& term, const RowMatrix& matrix) const;
   std::optional<ControlFit> solved_term(const CurveTerm& term, const RowMatrix& matrix) const;
 

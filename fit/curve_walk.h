@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "curve/kernel.h"
 #include "fit/normal.h"
 #include "fit/parameters.h"
 
@@ -36,27 +37,29 @@ class CurveWalk {
   void tangents(std::span<const Position> positions, const Lanes& control, const TakeTangent& take);
 
  private:
-  struct Buffers {
-    Lanes basis, tangent;
+  // Polygons of a node, a lane each: first the basis (a lane a control point), then its tangents. A lane's points lie
+  // side by side, `step` from the next lane's.
+  struct Lines {
+    const double* data;
+    Index step;
   };
 
-  void start(std::span<const Position> positions, Index lanes);
-  void visit(int level, Index node, Index first, Index last, const Eigen::Ref<const Lanes>& basis,
-             const Eigen::Ref<const Lanes>& tangent);
-  void add_own_tangent(const Eigen::Ref<const Lanes>& basis, Lanes& tangent) const;
-  void hand_out(Index node, Index first, Index last, const Eigen::Ref<const Lanes>& basis,
-                const Eigen::Ref<const Lanes>& tangent);
+  void start(std::span<const Position> positions, Index tangents);
+  void visit(int level, Index node, Index first, Index last, const Lines& lines);
+  void add_own_tangent(const Lines& lines, double* fine);
+  void hand_out(Index node, Index first, Index last, const Lines& lines);
 
   Shape shape_;
   int levels_;
-  Eigen::MatrixXd maps_;  // C transposed
+  kernel::Product maps_;  // by C
   const Watch& watch_;
   std::vector<FreeEntry> entries_;
   std::span<const Position> positions_;
   const Lanes* control_ = nullptr;
   TakeTangent take_;
-  std::vector<Buffers> buffers_;  // a level each
-  Eigen::RowVectorXd basis_, tangent_;
+  std::vector<std::vector<double>> buffers_;  // a level each: lanes × rows
+  std::vector<double> point_;                 // a lane each
+  std::vector<double> polygon_;               // of one coordinate
 };
 
 }  // namespace ifsm::core

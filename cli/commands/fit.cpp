@@ -23,6 +23,8 @@ struct FitArguments {
   std::string control_points;
   std::string maps;
   std::string filter;
+  std::string stage = "sparse";
+  std::optional<int> levels;
   std::string format;
   int iterations = 0;  // 0: the library's default, here and below
   int rounds = 0;
@@ -34,6 +36,7 @@ struct FitArguments {
 
 constexpr int chosen_by_library = -1;
 constexpr int no_polish = -1;
+constexpr int no_levels = -1;
 
 int shape_number(const std::string& text) {
   if (text.empty()) return 0;
@@ -65,6 +68,13 @@ void check_arguments(const FitArguments& arguments) {
   const bool automatic = arguments.control_points == "auto" || arguments.maps == "auto";
   if (automatic && arguments.no_fit)
     throw Failure(Exit::Usage, "auto chooses by fitting; with --no-fit give numbers to --control-points and --maps.");
+  const bool of_sparse = automatic || !arguments.budgets.empty() || arguments.rounds != 0 || arguments.polish;
+  if (of_sparse && arguments.stage != "sparse")
+    throw Failure(Exit::Usage,
+                  "--budget, --rounds, --polish and the shape auto are for --stage sparse; leave them out, "
+                  "or fit that stage.");
+  if (arguments.levels && arguments.stage != "filter")
+    throw Failure(Exit::Usage, "--levels is for --stage filter: the levels whose details its filter is to tell well.");
   if (automatic && !arguments.filter.empty())
     throw Failure(Exit::Usage, "auto chooses the shape, --filter has one already; give only one of them.");
   refuse_json_beside_result(arguments.talk, arguments.output);
@@ -88,6 +98,40 @@ ifsm::Model exact_model(const FitArguments& arguments, const Samples& samples) {
   return {start_filter(arguments, arguments.filter.empty() ? "casteljau" : arguments.filter), samples.curve()};
 }
 
+// What the options of all stages have.
+template <class Options>
+Options common_options(const FitArguments& arguments, const ifsm::Filter& start, const ifsm::Cancel& token,
+                       Progress& progress) {
+  Options options;
+  options.threads = arguments.threads;
+  options.start = arguments.filter.empty() ? nullptr : &start;
+  options.control_points = shape_number(arguments.control_points);
+  options.maps = shape_number(arguments.maps);
+  options.iterations = arguments.iterations;
+  options.cancel = &token;
+  options.progress = [&progress](double fraction, const std::string& stage) {
+    progress.update(fraction, stage);
+    return false;
+  };
+  return options;
+}
+
+ifsm::Fit fitted_stage(const FitArguments& arguments, const ifsm::Curve& curve, const ifsm::Filter& start,
+                       const ifsm::Cancel& token, Progress& progress) {
+  if (arguments.stage == "curve")
+    return ifsm::fit_curve({curve}, common_options<ifsm::FitCurveOptions>(arguments, start, token, progress));
+  if (arguments.stage == "filter") {
+    auto options = common_options<ifsm::FitFilterOptions>(arguments, start, token, progress);
+    if (arguments.levels) options.kept_levels = *arguments.levels > 0 ? *arguments.levels : no_levels;
+    return ifsm::fit_filter({curve}, options);
+  }
+  auto options = common_options<ifsm::FitOptions>(arguments, start, token, progress);
+  options.budgets = arguments.budgets;
+  options.rounds = arguments.rounds;
+  if (arguments.polish) options.polish = *arguments.polish > 0 ? *arguments.polish : no_polish;
+  return ifsm::fit_sparse({curve}, options);
+}
+
 ifsm::Fit fitted(const FitArguments& arguments, const Samples& samples, Session& session) {
   ifsm::Filter start;
   if (!arguments.filter.empty()) {
@@ -96,21 +140,7 @@ ifsm::Fit fitted(const FitArguments& arguments, const Samples& samples, Session&
   }
   const Interrupt::Cancellable job(session.interrupt);
   Progress progress("fit", Progress::style_of_terminal(arguments.talk.quiet));
-  ifsm::FitOptions options;
-  options.threads = arguments.threads;
-  options.start = arguments.filter.empty() ? nullptr : &start;
-  options.control_points = shape_number(arguments.control_points);
-  options.maps = shape_number(arguments.maps);
-  options.budgets = arguments.budgets;
-  options.iterations = arguments.iterations;
-  options.rounds = arguments.rounds;
-  if (arguments.polish) options.polish = *arguments.polish > 0 ? *arguments.polish : no_polish;
-  options.cancel = &job.token();
-  options.progress = [&progress](double fraction, const std::string& stage) {
-    progress.update(fraction, stage);
-    return false;
-  };
-  auto fit = ifsm::fit_sparse({samples.curve()}, options);
+  auto fit = fitted_stage(arguments, samples.curve(), start, job.token(), progress);
   job.confirm();
   return fit;
 }
@@ -229,6 +259,15 @@ void add_fit(CLI::App& program, Session& session) {
       ->check(number_or_auto(1, 16));
   command->add_option("--maps", a.maps, "Pieces that a polygon is cut into, N (default 2)")
       ->check(number_or_auto(2, 8));
+  auto* stage = command
+                    ->add_option("--stage", a.stage,
+                                 "What to fit: sparse, the whole filter, so that few details tell the curve (default); "
+                                 "curve, control points and T alone; filter, U alone")
+                    ->check(CLI::IsMember({"sparse", "curve", "filter"}));
+  auto* levels = command
+                     ->add_option("--levels", a.levels,
+                                  "Stage filter: levels whose details are to tell the curve (default 3); 0 for none")
+                     ->check(CLI::Range(0, 40));
   command->add_option("--filter", a.filter, "Where to start (default casteljau); an unknown name lists the known ones");
   command->add_option("--format", a.format, "json or cbor (default: json when the name ends in .json, else cbor)")
       ->check(CLI::IsMember({"json", "cbor"}));
@@ -244,12 +283,15 @@ void add_fit(CLI::App& program, Session& session) {
       ->excludes(budget)
       ->excludes(iterations)
       ->excludes(rounds)
-      ->excludes(polish);
+      ->excludes(polish)
+      ->excludes(stage)
+      ->excludes(levels);
   add_talk(*command, a.talk);
   command->footer(
       "Examples:\n"
       "  ifsm fit coast.csv --closed --budget 32,128 -o coast.ifsm\n"
       "  ifsm fit track.csv --columns lon,lat --control-points auto -o track.json\n"
+      "  ifsm fit profile.csv --stage curve --control-points 4 -o profile.ifsm\n"
       "  ifsm fit profile.csv --no-fit --filter casteljau --control-points 4 -o profile.ifsm\n");
   command->callback([arguments, &session] { run(*arguments, session); });
 }

@@ -96,6 +96,20 @@ class RoundTrips(Program):
         self.fine("synth", model, "-o", back)
         self.assertLess(largest_gap(points, numbers(back.read_text())), 1e-9)
 
+    def test_stages_fit_alone_and_give_exact_models(self):
+        points = rough_ring(200)
+        source, model, back = self.file("in.csv", table(points)), self.file("m.ifsm"), self.file("out.csv")
+        for stage, details in ("curve", 0), ("filter", (1 + 2) * 4):
+            extra = ("--levels", 2) if stage == "filter" else ()
+            report = json.loads(self.fine("fit", source, "--closed", "--stage", stage, *extra, "--json", "-q", "-o", model))
+            (row,) = report["fit"]["budgets"]
+            self.assertEqual(row["details"], details)
+            self.assertLess(row["rms"], row["start_rms"])
+            self.fine("synth", model, "-o", back)
+            self.assertLess(largest_gap(points, numbers(back.read_text())), 1e-9)
+        self.refused(2, "--budget", "fit", source, "--stage", "curve", "--budget", 8, "-o", model)
+        self.refused(2, "--levels", "fit", source, "--levels", 2, "-o", model)
+
     def test_sketches_are_as_far_from_the_samples_as_the_report_says(self):
         model = self.model()
         points, sketch = rough_ring(300), self.file("sketch.csv")
