@@ -37,7 +37,7 @@ struct Setting {
   Watch watch;
   FilterPtr filter = named_filter("casteljau", Topology::joined, n, 2);
   CurveProblem problem{curves, filter, options, watch};
-  CurveState state = problem.state(filter->matrix(), {}, problem.levels());
+  CurveState state = problem.state(filter->matrix(), {}, problem.levels()).value();
   CurveError error = problem.error(state, {}, problem.levels());
   RowMatrix matrices[2] = {filter->matrix(), moved()};
 

@@ -117,8 +117,7 @@ std::vector<double> ConstraintSet::sorted_parameters() const {
     if (demand.from != none) parameters.push_back(demand.from);
   }
   std::ranges::sort(parameters);
-  const auto repeated = std::ranges::unique(parameters);
-  parameters.erase(repeated.begin(), repeated.end());
+  parameters.erase(std::unique(parameters.begin(), parameters.end()), parameters.end());
   return parameters;
 }
 

@@ -80,7 +80,7 @@ CurveError CurveProblem::error(const CurveState& state, const Loss& loss, int le
     CurveTerm term{&target,
                    ConstraintSet(target, shape_, levels),
                    positions_of(shape_, levels, state.parameters[c]),
-                   models_[c]->parts().polygon.matrix(),
+                   state.controls.empty() ? Lanes(models_[c]->parts().polygon.matrix()) : state.controls[c],
                    {},
                    0};
     if (loss.robust())
@@ -94,11 +94,11 @@ CurveError CurveProblem::error(const CurveState& state, const Loss& loss, int le
   return {shape_, levels, std::move(terms), watch_};
 }
 
-CurveState CurveProblem::state(const RowMatrix& matrix, const Loss& loss, int levels) const {
+std::optional<CurveState> CurveProblem::state(const RowMatrix& matrix, const Loss& loss, int levels) const {
   CurveState state{matrix, {}, {}, {}, 0};
   for (const Target& target : targets_) state.parameters.push_back(target.parameters);
   const auto fits = error(state, Loss{}, levels).solved(matrix);
-  if (!fits) throw Error(Status::internal, "", "Constraints that agreed contradict each other on fewer levels.");
+  if (!fits) return std::nullopt;
   for (const ControlFit& fit : *fits) state.controls.push_back(fit.control);
   return judged(std::move(state), loss, levels);
 }

@@ -1,6 +1,7 @@
 // What stage *curve* works on: targets, and states that can be compared.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ class CurveProblem {
   bool admits(const RowMatrix& matrix) const;
   MinimiseOptions minimise_options(const char* stage) const;
 
-  // Control points by plain least squares, at the targets' parameters.
-  CurveState state(const RowMatrix& matrix, const Loss& loss, int levels) const;
+  // Control points by plain least squares, at the targets' parameters. None where constraints contradict each other:
+  // three points on one leg, say, which more levels tell apart.
+  std::optional<CurveState> state(const RowMatrix& matrix, const Loss& loss, int levels) const;
   // The same state with residuals and cost by another loss, or on another number of levels.
   CurveState judged(CurveState state, const Loss& loss, int levels) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "curve/complement.h"
@@ -28,14 +29,17 @@ class CurveFit {
       : options_(options), watch_(watch), start_(std::move(start)), problem_(curves, start_, options, watch) {}
 
   FitResult run() {
-    const CurveState start = problem_.state(start_->matrix(), options_.loss, problem_.levels());
+    // Its constraints agree: that was looked at before.
+    const CurveState start = problem_.state(start_->matrix(), options_.loss, problem_.levels()).value();
     CurveState best = start;
     const int starts = moves_filter() ? options_.starts : 1;
     for (int i = 0; i < starts; ++i) {
       Watch coarse = watch_.part(0.95 * i / starts, 0.95 * (i + 0.5) / starts);
       Watch fine = watch_.part(0.95 * (i + 0.5) / starts, 0.95 * (i + 1) / starts);
-      CurveState found = i == 0 ? start : coarse_to_fine(i == 1 ? canonical_start() : collage_start(), coarse);
-      found = fitted(std::move(found), fine);
+      std::optional<CurveState> from = start;
+      if (i > 0) from = coarse_to_fine(i == 1 ? canonical_start() : collage_start(), coarse);
+      if (!from) continue;
+      CurveState found = fitted(std::move(*from), fine);
       if (found.cost < best.cost) best = std::move(found), best_converged_ = converged_;
     }
     return result(start, best);
@@ -103,10 +107,11 @@ class CurveFit {
   }
 
   // Few levels see the shape and little of the texture, and have fewer minima.
-  CurveState coarse_to_fine(RowMatrix matrix, Watch& watch) {
-    for (int levels = problem_.coarsest_level(); levels < problem_.levels(); levels += level_step)
-      matrix = improved(problem_.state(matrix, options_.loss, levels), options_.loss, levels, coarse_iterations, watch)
-                   .matrix;
+  std::optional<CurveState> coarse_to_fine(RowMatrix matrix, Watch& watch) {
+    for (int levels = problem_.coarsest_level(); levels < problem_.levels(); levels += level_step) {
+      auto state = problem_.state(matrix, options_.loss, levels);
+      if (state) matrix = improved(std::move(*state), options_.loss, levels, coarse_iterations, watch).matrix;
+    }
     return problem_.state(matrix, options_.loss, problem_.levels());
   }
 

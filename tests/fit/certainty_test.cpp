@@ -32,7 +32,7 @@ ByCeres covariances_by_ceres(const std::vector<FitCurve>& curves, const FitResul
   const Watch watch;
   const FilterPtr start = named_filter("casteljau", Topology::joined, options.control_points, options.maps);
   const CurveProblem problem(curves, start, options, watch);
-  const CurveState state = problem.state(fit.filter->matrix(), Loss{}, problem.levels());
+  const CurveState state = problem.state(fit.filter->matrix(), Loss{}, problem.levels()).value();
   const CurveError error = problem.error(state, Loss{}, problem.levels());
   Eigen::VectorXd control = stacked(state.controls[0]);
   Eigen::VectorXd maps = parameters_of(problem.shape(), state.matrix, Part::maps);

@@ -210,6 +210,24 @@ TEST(CurveStage, HoldsConstraintsTo1e10) {
     }
 }
 
+// On coarse levels three points lie on one leg, and only two of them can be had: the way there is not taken.
+TEST(CurveStage, HoldsPointsThatLieCloserThanCoarseLevelsTell) {
+  const Points points = walk(1025, 2, 5);
+  CurveOptions options = shaped(5, 2);
+  options.iterations = 5;
+  options.starts = 3;
+  FitSamples told;
+  for (const double parameter : {0.501, 0.504, 0.507})
+    told.constraints.push_back({ConstraintKind::point, parameter, {1, parameter}});
+  options.samples = {told};
+  const FitResult result = fitted({{points, false}}, options);
+  EXPECT_LT(result.final_cost, result.start_cost);
+  const Points at =
+      evaluate(*result.budgets[0][0].fitted.model, Curve::polyline, std::vector<double>{0.501, 0.504, 0.507});
+  for (Index k = 0; k < 3; ++k)
+    EXPECT_NEAR(at.matrix()(k, 1), told.constraints[static_cast<std::size_t>(k)].parameter, 1e-10 * diagonal(points));
+}
+
 TEST(CurveStage, WeighsSamples) {
   const Points points = noisy(bezier(5), 0.1, 9);
   CurveOptions options = shaped(3, 2);
