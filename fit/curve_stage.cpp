@@ -161,8 +161,7 @@ class CurveFit {
       sum += own.product(count, count) - term.offset;
       certainty.freedom += term.target->count() * term.target->dimension - own.rank;
       certainty.noise_known = certainty.noise_known && term.target->whitening.rows() > 0;
-      certainty.curves.push_back(
-          {state.controls[c], std::move(own.follow), std::move(own.spread), moves_filter() || own.open == 0});
+      certainty.curves.push_back({state.controls[c], std::move(own.follow), std::move(own.spread), own.open == 0});
     }
     certainty.filter = Eigen::MatrixXd::Zero(count, count);
     if (moves_filter()) {

@@ -118,6 +118,11 @@ TEST(Certainty, RefusesWhatNothingTells) {
   options.samples.resize(1);  // told by covariances, it can be
   options.samples[0].covariances = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
   EXPECT_NO_THROW(control_covariance(*fit_curve({{three, false}}, options, watch).certainty, 0));
+  for (const bool fixed : {true, false}) {  // three samples never tell four control points, noise known or not
+    options.fixed_filter = fixed;
+    options.control_points = 4;
+    EXPECT_THROW(control_covariance(*fit_curve({{three, false}}, options, watch).certainty, 0), Error);
+  }
   const FitResult fit = fit_curve({{measured(), false}}, CurveOptions{}, watch);
   EXPECT_THROW(curve_covariance(*fit.certainty, 0, std::vector<double>{0.5, 1.5}, watch), Error);
 }
