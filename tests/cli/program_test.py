@@ -302,8 +302,10 @@ class Signals(Program):
         self.assertIsNone(process.poll(), "it ended before the signal: " + str(process.returncode))
         sent = time.monotonic()
         process.send_signal(number)
-        _, errors = process.communicate(timeout=60)
-        return process.returncode, time.monotonic() - sent, errors
+        process.wait(timeout=60)  # its input stays open: the end of that would race with the signal
+        seconds = time.monotonic() - sent
+        _, errors = process.communicate()
+        return process.returncode, seconds, errors
 
     def test_a_signal_in_the_middle_of_a_fit_leaves_nothing(self):
         source = self.file("in.csv", table(rough_ring(30000)))
