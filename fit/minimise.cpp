@@ -10,8 +10,6 @@
 #include <cmath>
 #include <mutex>
 
-#include "fit/parameters.h"
-
 namespace ifsm::core {
 namespace {
 
@@ -64,34 +62,39 @@ struct Region {
 
 class Cost : public ceres::CostFunction {
  public:
-  Cost(const Shape& shape, Objective& objective, const Region& region)
-      : shape_(shape), objective_(objective), region_(region) {
-    set_num_residuals(free_count(shape) + 1);
-    mutable_parameter_block_sizes()->push_back(free_count(shape));
+  Cost(const Shape& shape, const RowMatrix& start, Objective& objective, const Region& region)
+      : shape_(shape),
+        start_(start),
+        objective_(objective),
+        region_(region),
+        count_(free_count(shape, region.options.part)) {
+    set_num_residuals(count_ + 1);
+    mutable_parameter_block_sizes()->push_back(count_);
   }
 
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
-    const RowMatrix matrix = matrix_of(shape_, parameters[0]);
+    const RowMatrix matrix = matrix_of(shape_, parameters[0], region_.options.part, start_);
     if (!region_.holds(shape_, matrix)) return false;
-    const int count = free_count(shape_);
-    Eigen::Map<Eigen::VectorXd> residual(residuals, count + 1);
+    Eigen::Map<Eigen::VectorXd> residual(residuals, count_ + 1);
     if (jacobians == nullptr || jacobians[0] == nullptr) {
       residual.setZero();
       residual(0) = std::sqrt(objective_.value(matrix));
       return std::isfinite(residual(0));
     }
-    Normal normal(count);
+    Normal normal(count_);
     objective_.gather(matrix, normal);
     const Normal::Rows rows = normal.compressed();
     residual = rows.residual;
-    Eigen::Map<RowMatrix>(jacobians[0], count + 1, count) = rows.jacobian;
+    Eigen::Map<RowMatrix>(jacobians[0], count_ + 1, count_) = rows.jacobian;
     return rows.residual.allFinite() && rows.jacobian.allFinite();
   }
 
  private:
   Shape shape_;
+  const RowMatrix& start_;
   Objective& objective_;
   Region region_;
+  int count_;
 };
 
 class Report : public ceres::IterationCallback {
@@ -113,10 +116,10 @@ Minimised minimise(const Shape& shape, Objective& objective, const RowMatrix& st
                    Watch watch) {
   const double start_value = objective.value(start);
   const Minimised unmoved{start, start_value, start_value, 0, true};
-  if (!(start_value > 0) || free_count(shape) == 0) return unmoved;
+  if (!(start_value > 0) || free_count(shape, options.part) == 0) return unmoved;
 
-  Eigen::VectorXd parameters = parameters_of(shape, start);
-  Cost cost(shape, objective, {options, contractivity(shape, start)});
+  Eigen::VectorXd parameters = parameters_of(shape, start, options.part);
+  Cost cost(shape, start, objective, {options, contractivity(shape, start)});
   Report report(watch, options);
   ceres::Problem::Options borrowed;
   borrowed.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -135,7 +138,7 @@ Minimised minimise(const Shape& shape, Objective& objective, const RowMatrix& st
   ceres::Solve(solver, &problem, &summary);
 
   // Ceres calls it convergence when every step was refused: what counts is the value at the end.
-  const RowMatrix found = matrix_of(shape, parameters.data());
+  const RowMatrix found = matrix_of(shape, parameters.data(), options.part, start);
   const double value = objective.value(found);
   const int iterations = std::max(0, static_cast<int>(summary.iterations.size()) - 1);
   if (!(value < start_value)) return {start, start_value, start_value, iterations, true};

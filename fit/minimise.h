@@ -7,6 +7,7 @@
 
 #include "base/cancel.h"
 #include "fit/objective.h"
+#include "fit/parameters.h"
 
 namespace ifsm::core {
 
@@ -16,6 +17,7 @@ struct MinimiseOptions {
   double condition = 1e3;                             // of R, at most
   const char* stage = "";                             // told to the watch
   std::function<bool(const RowMatrix&)> admits = {};  // what else a step must hold to
+  Part part = Part::all;                              // what moves: the objective's parameters
 };
 
 struct Minimised {

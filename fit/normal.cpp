@@ -41,6 +41,8 @@ Normal& Normal::operator+=(Normal& other) {
   return *this;
 }
 
+void Normal::add(const Eigen::MatrixXd& product) { product_ += product; }
+
 Normal::Rows Normal::compressed() {
   flush();
   const int p = parameters();

@@ -37,6 +37,8 @@ class Normal : public RowSink {
   // Takes another's rows away, or adds them.
   Normal& operator-=(Normal& other);
   Normal& operator+=(Normal& other);
+  // Adds rows of which the product is known.
+  void add(const Eigen::MatrixXd& product);
 
  private:
   void flush();

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <span>
 #include <utility>
 
 #include "base/parallel.h"
-#include "curve/transform.h"
 #include "fit/projection.h"
 #include "fit/sparsity.h"
 
@@ -16,27 +13,6 @@ namespace ifsm::core {
 namespace {
 
 constexpr double scale_of_error = 0.5;  // ε over the root of squared error per kept value
-
-double largest_coordinate(std::span<const double> line) {
-  double largest = 0;
-  for (const double value : line) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
-// Of all levels, from the centre; infinite when a coordinate is not finite.
-double largest_polygon(const Shape& shape, const RowMatrix& inverse, const Points& line, int levels) {
-  double largest = 0;
-  for (Index axis = 0; axis < line.dimension(); ++axis) {
-    std::vector<double> fine(line.plane(axis).begin(), line.plane(axis).end());
-    for (int level = levels - 1; level >= 0; --level) {
-      std::vector<double> coarse(static_cast<std::size_t>(shape.line_length(level)));
-      coarsen_level(shape, inverse, fine, coarse);
-      largest = std::max(largest, largest_coordinate(coarse));
-      fine.swap(coarse);
-    }
-  }
-  return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
-}
 
 }  // namespace
 
@@ -50,6 +26,7 @@ Sketchbook::Sketchbook(const std::vector<FitCurve>& curves, FilterPtr start, std
                        const Limits& limits, const Watch& watch)
     : curves_(curves), start_(std::move(start)), budgets_(std::move(budgets)), limits_(limits), watch_(watch) {
   for (const FitCurve& curve : curves_) jobs_.emplace_back(analyze(start_, curve.samples, curve.closed));
+  for (const Job& job : jobs_) neighbourhoods_.push_back(Neighbourhood::of(*job.start, job.line, limits_.reach));
 }
 
 template <class Body>
@@ -161,18 +138,9 @@ Minimised Sketchbook::polished(const Sketches& sketches, const MinimiseOptions& 
   return minimise(shape(), objective, sketches.matrix, options, std::move(watch));
 }
 
-// Coarse polygons that leave the curve's neighbourhood grow from level to level: R^-1 is bounded, its powers are not.
-bool Sketchbook::stays_near(const RowMatrix& matrix) const {
-  const RowMatrix inverse = inverse_of(shape(), matrix);
-  return std::ranges::all_of(jobs_, [&](const Job& job) {
-    return largest_polygon(shape(), inverse, job.line, job.start->levels()) <=
-           std::max(limits_.reach * job.start->parts().diagonal, job.start->parts().largest_polygon);
-  });
-}
-
 MinimiseOptions Sketchbook::options(int iterations, double tolerance, const char* stage) const {
   return {iterations, tolerance, std::max(limits_.condition, 2 * start_->condition()), stage,
-          [this](const RowMatrix& matrix) { return stays_near(matrix); }};
+          [this](const RowMatrix& matrix) { return stay_near(shape(), matrix, neighbourhoods_); }};
 }
 
 }  // namespace ifsm::core

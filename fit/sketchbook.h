@@ -8,6 +8,7 @@
 #include "curve/resolve.h"
 #include "fit/curve.h"
 #include "fit/minimise.h"
+#include "fit/region.h"
 
 namespace ifsm::core {
 
@@ -15,13 +16,6 @@ namespace ifsm::core {
 struct Sketches {
   RowMatrix matrix;
   std::vector<std::vector<Choice>> choices;
-};
-
-// How far a fit may go from its start for the sake of few details.
-struct Limits {
-  double condition = 1e2;  // of R, or twice the start's: beyond, details grow and cancel, and rounding passes 1e-12
-  double reach = 0.75;     // of coarse polygons from the centre, in the curve's diagonals, or the start's: beyond, they
-                           // are poor handles, and far beyond, rounding shows
 };
 
 class Sketchbook {
@@ -56,8 +50,6 @@ class Sketchbook {
   // One of the sketches' own errors, their choices held.
   Minimised polished(const Sketches& sketches, const MinimiseOptions& options, Watch watch);
 
-  // What a step must hold to beside its condition: coarse polygons near their curves.
-  bool stays_near(const RowMatrix& matrix) const;
   MinimiseOptions options(int iterations, double tolerance, const char* stage) const;
 
  private:
@@ -84,6 +76,7 @@ class Sketchbook {
   Limits limits_;
   const Watch& watch_;
   std::vector<Job> jobs_;
+  std::vector<Neighbourhood> neighbourhoods_;
 };
 
 }  // namespace ifsm::core

@@ -8,7 +8,7 @@
 
 #include "curve/named.h"
 #include "curve/scale.h"
-#include "fit/checks.h"
+#include "fit/budgets.h"
 #include "fit/parameters.h"
 #include "fit/sketchbook.h"
 

@@ -5,7 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "fit/checks.h"
+#include "fit/budgets.h"
+#include "fit/fit.h"
 #include "fit/parameters.h"
 
 namespace ifsm::core {

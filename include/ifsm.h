@@ -541,6 +541,9 @@ typedef struct ifsm_fit_options {
 /* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_options_init(ifsm_fit_options *options, uint32_t size);
 
+/* Which stage a fit is of: docs/fitting.md says which for what. */
+enum { IFSM_STAGE_SPARSE = 0, IFSM_STAGE_CURVE = 1, IFSM_STAGE_FILTER = 2 };
+
 /* Why a fit stopped. */
 enum {
   IFSM_FIT_CONVERGED = 0,  /* no step improves the cost any more */
@@ -554,10 +557,15 @@ typedef struct ifsm_fit_report {
   int64_t curves;
   int64_t budgets;
   int64_t iterations;     /* Levenberg-Marquardt iterations, all rounds */
-  double start_cost;      /* the sparsity objective of the last round, of the start */
+  double start_cost;      /* the stage's objective, of the start (sparse: sparsity, of the last round) */
   double final_cost;      /* and of the result */
   double start_condition; /* condition number of R */
   double final_condition;
+  int32_t stage;          /* IFSM_STAGE_… */
+  int32_t reserved;
+  int64_t freedom;        /* stages curve and filter: coordinates of samples beyond the parameters that they determine */
+  double noise;           /* and the standard deviation of a residual of weight 1, estimated by them; 1 when covariances
+                             told it, 0 when nothing does */
 } ifsm_fit_report;
 
 /* How well a curve is told by one budget: distances between its samples and the best sketch that was found, under the
@@ -588,12 +596,174 @@ typedef struct ifsm_fit_budget {
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_sparse(const ifsm_curve *curves, int64_t curve_count,
                                                    const ifsm_fit_options *options, ifsm_fit *fit);
 
+/* Where stage *curve* looks for samples on the curve: parameters 0 … 1, from the first place to the last. */
+enum {
+  IFSM_PARAMETERS_INDEX = 0,       /* at their places, as ifsm_model_create puts them */
+  IFSM_PARAMETERS_CHORD = 1,       /* in proportion to the distance from sample to sample */
+  IFSM_PARAMETERS_CENTRIPETAL = 2, /* to its square root: long jumps count less */
+  IFSM_PARAMETERS_GIVEN = 3        /* in ifsm_fit_samples */
+};
+
+/* What a squared residual s costs; a is loss_scale, the residual at which outliers begin. */
+enum {
+  IFSM_LOSS_SQUARES = 0, /* s */
+  IFSM_LOSS_HUBER = 1,   /* s up to a², then 2 a sqrt(s) - a²: outliers pull, but not the more the farther */
+  IFSM_LOSS_CAUCHY = 2,  /* a² log(1 + s / a²): far ones hardly pull */
+  IFSM_LOSS_TUKEY = 3    /* a²/3 (1 - (1 - s / a²)³), constant from a² on: those beyond a do not count */
+};
+
+/* What must hold exactly. */
+enum {
+  IFSM_CONSTRAINT_POINT = 1,  /* the curve passes through a point at a parameter */
+  IFSM_CONSTRAINT_TANGENT = 2 /* its first (parameter 0) or last (1) leg lies along a direction; in which sense, the
+                                 samples say */
+};
+
+/* What is known about one curve's samples. All of it may be left zero. Faults are told as those of, say,
+ * "samples[0].weights". Never changes: it stands in arrays. */
+typedef struct ifsm_fit_samples {
+  const double *parameters; /* borrowed, with IFSM_PARAMETERS_GIVEN: one a sample, increasing, 0 … 1 (a ring's below 1) */
+  int64_t parameter_count;
+  const double *weights; /* borrowed: one a sample, above 0: what its squared residual is multiplied by */
+  int64_t weight_count;
+  const double *covariances; /* borrowed, instead of weights: dimension × dimension a sample, row-major, symmetric and
+                                positive definite: residuals count in its units */
+  int64_t covariance_count;  /* doubles */
+  const int32_t *constraint_kinds;     /* borrowed: IFSM_CONSTRAINT_…, constraint_count of them */
+  const double *constraint_parameters; /* borrowed: 0 … 1, one a constraint */
+  const double *constraint_values;     /* borrowed: dimension doubles a constraint, the point or the direction */
+  int64_t constraint_count;            /* 0 … 1024; n control points hold n points at most */
+  int32_t fixed_ends;                  /* 1: the curve's ends stay at the first and the last sample (a ring: the first) */
+  int32_t reserved;                    /* 0 */
+} ifsm_fit_samples;
+
+typedef struct ifsm_fit_curve_options {
+  uint32_t struct_size;
+  int32_t threads;        /* as in ifsm_fit_options */
+  ifsm_filter start;      /* borrowed: where to start, joined, its shape instead of the one below; {0}: casteljau */
+  int32_t control_points; /* n, 2 … 16; 0: 5 */
+  int32_t maps;           /* N, 2 … 8; 0: 2 */
+  int32_t fixed_filter;   /* 1: the filter stays as it is, control points alone are fitted */
+  int32_t parameters;     /* IFSM_PARAMETERS_… */
+  int32_t reparameterise; /* rounds in which samples find the nearest point of the curve anew, 0 … 10000; 0: none */
+  int32_t loss;           /* IFSM_LOSS_… */
+  double loss_scale;      /* above 0 with a robust loss: 1.3 to 5 standard deviations of the noise; else 0 */
+  int32_t levels;         /* depth of the tree whose places the curve goes through; 0: the smallest with a place for every
+                             sample, which is also the least */
+  int32_t starts;         /* 1: from the start alone; 2 (and 0): and coarse to fine; 3: and from the samples' collage */
+  int32_t iterations;     /* Levenberg-Marquardt iterations a start at most, 1 … 1000; 0: 40 */
+  int32_t reserved;       /* 0 */
+  double tolerance;       /* relative fall of the cost at which it stops, above 0; 0: 1e-9 */
+  const ifsm_fit_samples *samples; /* borrowed: one a curve; NULL: nothing is known */
+  int64_t sample_count;            /* curve_count, or 0 */
+  ifsm_cancel cancel;              /* borrowed; {0} for none */
+  ifsm_progress_callback progress; /* may be NULL */
+  void *user;                      /* handed to `progress` */
+} ifsm_fit_curve_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_curve_options_init(ifsm_fit_curve_options *options, uint32_t size);
+
+/* Stage *curve*: the control points of each curve and the T of all whose curve without details comes nearest to the
+ * samples, by Levenberg-Marquardt on T with the control points solved for. The curve is the polyline through the places
+ * of the finest level. U is the canonical complement of the T that is found.
+ *
+ * curves        borrowed: all of one dimension
+ * curve_count   1 …
+ * options       borrowed; NULL for defaults
+ * fit           [out] owned by the caller. Its cost, the sum of the loss over samples, is at most that of the start:
+ *               control points by plain least squares under the starting filter. ifsm_fit_sketch(fit, c, 0) is the
+ *               fitted curve (no details), ifsm_fit_describe_budget(fit, c, 0) its distance from the samples at
+ *               ifsm_fit_parameters, unweighted
+ *
+ * Fitted to a rough curve alone, T grows large entries, and its exact models need more details than casteljau's: for few
+ * details, fit stage sparse. Errors: NULL, RANGE (weights, parameters, scales, constraints that contradict each other),
+ * SHAPE, NOT_FINITE, INVALID_HANDLE, CANCELLED, NUMERICAL, LIMIT, OPTIONS, MEMORY. Deterministic. The callbacks run on
+ * this thread. Source: paper 002, section 4, first step; docs/fitting.md. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_curve(const ifsm_curve *curves, int64_t curve_count,
+                                                  const ifsm_fit_curve_options *options, ifsm_fit *fit);
+
+typedef struct ifsm_fit_filter_options {
+  uint32_t struct_size;
+  int32_t threads;        /* as in ifsm_fit_options */
+  ifsm_filter start;      /* borrowed: whose T stays, joined, its shape instead of the one below; {0}: casteljau */
+  int32_t control_points; /* n, 2 … 16; 0: 5 */
+  int32_t maps;           /* N, 2 … 8; 0: 2 */
+  int32_t kept_levels;    /* levels whose details count, 1 … 40; 0: 3; -1: none, the control points alone */
+  int32_t iterations;     /* Levenberg-Marquardt iterations at most, 1 … 1000; 0: 40 */
+  double tolerance;       /* relative fall of the cost at which it stops, above 0; 0: 1e-9 */
+  ifsm_cancel cancel;     /* borrowed; {0} for none */
+  ifsm_progress_callback progress; /* may be NULL */
+  void *user;                      /* handed to `progress` */
+} ifsm_fit_filter_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_filter_options_init(ifsm_fit_filter_options *options, uint32_t size);
+
+/* Stage *filter*: with T as it is, the U under which the first levels of details tell the samples best.
+ *
+ * curves        borrowed: all of one dimension
+ * curve_count   1 …
+ * options       borrowed; NULL for defaults
+ * fit           [out] owned by the caller. Its cost, the sum of squared distances at the samples, is at most the start's;
+ *               ifsm_fit_sketch(fit, c, 0) has the details of those levels. A curve of no more levels is exact under any
+ *               U and changes nothing
+ *
+ * Errors: as ifsm_fit_curve. Source: paper 002, section 4, second step; docs/fitting.md. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_filter(const ifsm_curve *curves, int64_t curve_count,
+                                                   const ifsm_fit_filter_options *options, ifsm_fit *fit);
+
+/* Where the fit saw the samples of a curve: stage curve, as given, computed or found anew; other stages, at their places.
+ *
+ * curve        0 … curves - 1
+ * parameters   [out] one a sample
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_parameters(ifsm_fit fit, int64_t curve, double *parameters,
+                                                       int64_t capacity, int64_t *count);
+
+/* How sure stage curve is of a curve's control points: their covariance, the Gauss-Newton one of the final cost, T
+ * moving with them when it was fitted. Without covariances of the samples it is scaled by the noise that the report
+ * tells; robust losses count by their weights at the end.
+ *
+ * curve        0 … curves - 1
+ * covariance   [out] (n × dimension)² doubles, row-major; coordinate a of control point i at i × dimension + a
+ *
+ * With T fitted, (P, T) and (P A, A^-1 T A) give one limit curve: along such changes the samples tell (nearly) nothing,
+ * and the pseudo-inverse counts what they do not tell as known. Then ask for the curve's covariance instead.
+ * Errors: INVALID_HANDLE, NULL, RANGE (a fit of another stage), CAPACITY, NUMERICAL (samples that do not determine the
+ * control points, or leave nothing to tell the noise by), MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_covariance(ifsm_fit fit, int64_t curve, double *covariance,
+                                                       int64_t capacity, int64_t *count);
+
+/* The same of the filter's fitted entries: of C (n rows) after stage curve, zero when the filter was fixed; of U after
+ * stage filter, on what the cost sees of it.
+ *
+ * covariance   [out] (rows × columns)² doubles, row-major, the entries in row-major order
+ *
+ * Errors: as ifsm_fit_covariance. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_filter_covariance(ifsm_fit fit, double *covariance, int64_t capacity,
+                                                              int64_t *count);
+
+/* The same of the fitted curve's points: stage curve alone.
+ *
+ * curve             0 … curves - 1
+ * parameters        borrowed: 0 … 1
+ * parameter_count   how many
+ * covariance        [out] dimension × dimension doubles a parameter, row-major
+ *
+ * Errors: as ifsm_fit_covariance, and NOT_FINITE. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_curve_covariance(ifsm_fit fit, int64_t curve, const double *parameters,
+                                                             int64_t parameter_count, double *covariance,
+                                                             int64_t capacity, int64_t *count);
+
 /* curve   0 … curves - 1
  * model   [out] that curve's exact model under the fitted filter, owned by the caller
  * Errors: INVALID_HANDLE, NULL, RANGE, MEMORY. Any thread. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_fit_model(ifsm_fit fit, int64_t curve, ifsm_model *model);
 
-/* The sketch that the report tells of: the fitted filter, budget - n details, solved.
+/* The sketch that the report tells of: the fitted filter, budget - n details, solved (stages curve and filter have one
+ * budget: the fitted curve itself; the first levels, as analysis gives them).
  *
  * curve    0 … curves - 1
  * budget   0 … budgets - 1: its position, not its size

@@ -539,6 +539,93 @@ struct FitOptions {
   std::function<bool(double fraction, const std::string& stage)> progress;
 };
 
+// What is known about one curve's samples, as in ifsm_fit_samples. Values stay here while the fit runs.
+struct FitSamples {
+  std::vector<double> parameters;   // with Parameters::given
+  std::vector<double> weights;      // one a sample
+  std::vector<double> covariances;  // dimension × dimension a sample
+  bool fixed_ends = false;
+
+  // The curve passes through a point at a parameter; its first (0) or last (1) leg lies along a direction.
+  FitSamples& through(double parameter, const std::vector<double>& point) {
+    return add(IFSM_CONSTRAINT_POINT, parameter, point);
+  }
+  FitSamples& along(double parameter, const std::vector<double>& direction) {
+    return add(IFSM_CONSTRAINT_TANGENT, parameter, direction);
+  }
+
+  // Borrows this object.
+  ifsm_fit_samples get() const {
+    ifsm_fit_samples told{};
+    told.parameters = parameters.data(), told.parameter_count = detail::size_of(parameters.size());
+    told.weights = weights.data(), told.weight_count = detail::size_of(weights.size());
+    told.covariances = covariances.data(), told.covariance_count = detail::size_of(covariances.size());
+    told.constraint_kinds = kinds_.data();
+    told.constraint_parameters = at_.data();
+    told.constraint_values = values_.data();
+    told.constraint_count = detail::size_of(kinds_.size());
+    told.fixed_ends = fixed_ends ? 1 : 0;
+    return told;
+  }
+
+ private:
+  FitSamples& add(std::int32_t kind, double parameter, const std::vector<double>& value) {
+    kinds_.push_back(kind);
+    at_.push_back(parameter);
+    values_.insert(values_.end(), value.begin(), value.end());
+    return *this;
+  }
+
+  std::vector<std::int32_t> kinds_;
+  std::vector<double> at_, values_;
+};
+
+enum class Parameters : std::int32_t {
+  index = IFSM_PARAMETERS_INDEX,
+  chord = IFSM_PARAMETERS_CHORD,
+  centripetal = IFSM_PARAMETERS_CENTRIPETAL,
+  given = IFSM_PARAMETERS_GIVEN
+};
+enum class Loss : std::int32_t {
+  squares = IFSM_LOSS_SQUARES,
+  huber = IFSM_LOSS_HUBER,
+  cauchy = IFSM_LOSS_CAUCHY,
+  tukey = IFSM_LOSS_TUKEY
+};
+
+// What stage curve may be told; zero means the default everywhere, as in ifsm_fit_curve_options.
+struct FitCurveOptions {
+  int threads = 0;
+  const Filter* start = nullptr;  // where to start
+  int control_points = 0;
+  int maps = 0;
+  bool fixed_filter = false;  // control points alone
+  Parameters parameters = Parameters::index;
+  int reparameterise = 0;  // rounds
+  Loss loss = Loss::squares;
+  double loss_scale = 0;
+  int levels = 0;
+  int starts = 0;
+  int iterations = 0;
+  double tolerance = 0;
+  std::vector<FitSamples> samples;  // one a curve, or none
+  const Cancel* cancel = nullptr;
+  std::function<bool(double fraction, const std::string& stage)> progress;  // as in FitOptions
+};
+
+// What stage filter may be told, as in ifsm_fit_filter_options.
+struct FitFilterOptions {
+  int threads = 0;
+  const Filter* start = nullptr;  // whose T stays
+  int control_points = 0;
+  int maps = 0;
+  int kept_levels = 0;  // -1: none
+  int iterations = 0;
+  double tolerance = 0;
+  const Cancel* cancel = nullptr;
+  std::function<bool(double fraction, const std::string& stage)> progress;  // as in FitOptions
+};
+
 class Fit {
  public:
   Fit() = default;                                           // the null handle
@@ -562,6 +649,23 @@ class Fit {
   ifsm_fit_budget describe_budget(std::int64_t curve, std::int64_t budget) const {
     return detail::describe<ifsm_fit_budget>(
         [&](auto* told) { return ifsm_fit_describe_budget(handle(), curve, budget, told); });
+  }
+
+  // Where the fit saw a curve's samples.
+  std::vector<double> parameters(std::int64_t curve) const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_fit_parameters(handle(), curve, to...); });
+  }
+  // Covariances, row by row: of a curve's control points, of the fitted part of the filter, of the curve's points.
+  std::vector<double> covariance(std::int64_t curve) const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_fit_covariance(handle(), curve, to...); });
+  }
+  std::vector<double> filter_covariance() const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_fit_filter_covariance(handle(), to...); });
+  }
+  std::vector<double> curve_covariance(std::int64_t curve, const std::vector<double>& parameters) const {
+    return detail::fetch<double>([&](auto... to) {
+      return ifsm_fit_curve_covariance(handle(), curve, parameters.data(), detail::size_of(parameters.size()), to...);
+    });
   }
 
   ifsm_fit handle() const noexcept { return handle_.get(); }
@@ -596,32 +700,67 @@ struct Trampoline {
   }
 };
 
-}  // namespace detail
-
-// One filter for all curves, under which few details tell them.
-inline Fit fit_sparse(const std::vector<Curve>& curves, const FitOptions& options = {}) {
-  const std::vector<ifsm_curve> given = detail::curves_of(curves);
-  detail::Trampoline trampoline{&options.progress, nullptr};
-  ifsm_fit_options told{};
-  detail::check(ifsm_fit_options_init(&told, sizeof told));
+// The options that all stages have, and the call itself: call(curves, count, options, fit).
+template <class Told, class Options, class Call>
+Fit run_fit(const std::vector<Curve>& curves, const Options& options, Told& told, const Call& call) {
+  const std::vector<ifsm_curve> given = curves_of(curves);
+  Trampoline trampoline{&options.progress, nullptr};
   told.threads = options.threads;
   if (options.start != nullptr) told.start = options.start->handle();
   told.control_points = options.control_points;
   told.maps = options.maps;
-  told.budgets = options.budgets.empty() ? nullptr : options.budgets.data();
-  told.budget_count = detail::size_of(options.budgets.size());
   told.iterations = options.iterations;
-  told.rounds = options.rounds;
-  told.polish = options.polish;
   if (options.cancel != nullptr) told.cancel = options.cancel->handle();
-  if (options.progress) told.progress = detail::Trampoline::call, told.user = &trampoline;
+  if (options.progress) told.progress = Trampoline::call, told.user = &trampoline;
 
   ifsm_fit made{};
-  const ifsm_status status = ifsm_fit_sparse(given.data(), detail::size_of(given.size()), &told, &made);
+  const ifsm_status status = call(given.data(), size_of(given.size()), &told, &made);
   Fit fit(made);
   if (trampoline.thrown) std::rethrow_exception(trampoline.thrown);
-  detail::check(status);
+  check(status);
   return fit;
+}
+
+}  // namespace detail
+
+// Stage sparse: one filter for all curves, under which few details tell them.
+inline Fit fit_sparse(const std::vector<Curve>& curves, const FitOptions& options = {}) {
+  ifsm_fit_options told{};
+  detail::check(ifsm_fit_options_init(&told, sizeof told));
+  told.budgets = options.budgets.empty() ? nullptr : options.budgets.data();
+  told.budget_count = detail::size_of(options.budgets.size());
+  told.rounds = options.rounds;
+  told.polish = options.polish;
+  return detail::run_fit(curves, options, told, ifsm_fit_sparse);
+}
+
+// Stage curve: control points and T whose curve without details comes nearest to the samples.
+inline Fit fit_curve(const std::vector<Curve>& curves, const FitCurveOptions& options = {}) {
+  ifsm_fit_curve_options told{};
+  detail::check(ifsm_fit_curve_options_init(&told, sizeof told));
+  told.fixed_filter = options.fixed_filter ? 1 : 0;
+  told.parameters = static_cast<std::int32_t>(options.parameters);
+  told.reparameterise = options.reparameterise;
+  told.loss = static_cast<std::int32_t>(options.loss);
+  told.loss_scale = options.loss_scale;
+  told.levels = options.levels;
+  told.starts = options.starts;
+  told.tolerance = options.tolerance;
+  std::vector<ifsm_fit_samples> samples;
+  samples.reserve(options.samples.size());
+  for (const FitSamples& known : options.samples) samples.push_back(known.get());
+  told.samples = samples.data();
+  told.sample_count = detail::size_of(samples.size());
+  return detail::run_fit(curves, options, told, ifsm_fit_curve);
+}
+
+// Stage filter: with T as it is, the U under which the first levels of details tell the samples best.
+inline Fit fit_filter(const std::vector<Curve>& curves, const FitFilterOptions& options = {}) {
+  ifsm_fit_filter_options told{};
+  detail::check(ifsm_fit_filter_options_init(&told, sizeof told));
+  told.kept_levels = options.kept_levels;
+  told.tolerance = options.tolerance;
+  return detail::run_fit(curves, options, told, ifsm_fit_filter);
 }
 
 struct TrainOptions {

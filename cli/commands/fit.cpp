@@ -45,6 +45,13 @@ void check_arguments(const FitArguments& arguments) {
     throw Failure(Exit::Usage, "auto chooses by fitting; with --no-fit give numbers to --control-points and --maps.");
   if (automatic && !settings.filter.empty())
     throw Failure(Exit::Usage, "auto chooses the shape, --filter has one already; give only one of them.");
+  const bool of_sparse = automatic || !settings.budgets.empty() || settings.rounds != 0 || settings.polish;
+  if (of_sparse && settings.stage != "sparse")
+    throw Failure(Exit::Usage,
+                  "--budget, --rounds, --polish and the shape auto are for --stage sparse; leave them out, "
+                  "or fit that stage.");
+  if (settings.levels && settings.stage != "filter")
+    throw Failure(Exit::Usage, "--levels is for --stage filter: the levels whose details its filter is to tell well.");
   refuse_json_beside_result(arguments.talk, arguments.output);
   if (arguments.output == "-" && format_of(arguments) == ifsm::Format::cbor && isatty(STDOUT_FILENO))
     throw Failure(Exit::Usage, "CBOR is not for a terminal; add --format json, or name a file with -o.");
@@ -130,11 +137,22 @@ void add_settings(CLI::App& command, FitSettings& settings) {
   command
       .add_option("--threads", settings.threads, "Threads to use (default: one a core); results do not depend on it")
       ->check(CLI::Range(1, 1024));
+  auto* stage = command
+                    .add_option("--stage", settings.stage,
+                                "What to fit: sparse, the whole filter, so that few details tell the curve (default); "
+                                "curve, control points and T alone; filter, U alone")
+                    ->check(CLI::IsMember({"sparse", "curve", "filter"}));
+  auto* levels = command
+                     .add_option("--levels", settings.levels,
+                                 "Stage filter: levels whose details are to tell the curve (default 3); 0 for none")
+                     ->check(CLI::Range(0, 40));
   command.add_flag("--no-fit", settings.no_fit, "The exact model under the filter as it is")
       ->excludes(budget)
       ->excludes(iterations)
       ->excludes(rounds)
-      ->excludes(polish);
+      ->excludes(polish)
+      ->excludes(stage)
+      ->excludes(levels);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "commands/fitting.h"
 
+#include <utility>
+
 #include "failure.h"
 #include "models.h"
 #include "progress.h"
@@ -9,6 +11,7 @@ namespace {
 
 constexpr int chosen_by_library = -1;
 constexpr int no_polish = -1;
+constexpr int no_levels = -1;
 
 int shape_number(const std::string& text) {
   if (text.empty()) return 0;
@@ -19,15 +22,28 @@ ifsm::Filter filter_of(const FitSettings& settings) {
   return start_filter(settings.filter, shape_number(settings.control_points), shape_number(settings.maps));
 }
 
-ifsm::FitOptions options_of(const FitSettings& settings) {
-  ifsm::FitOptions options;
+// What the options of all stages have.
+template <class Options>
+Options common_options(const FitSettings& settings) {
+  Options options;
   options.threads = settings.threads;
   options.control_points = shape_number(settings.control_points);
   options.maps = shape_number(settings.maps);
-  options.budgets = settings.budgets;
   options.iterations = settings.iterations;
+  return options;
+}
+
+ifsm::FitOptions options_of_sparse(const FitSettings& settings) {
+  auto options = common_options<ifsm::FitOptions>(settings);
+  options.budgets = settings.budgets;
   options.rounds = settings.rounds;
   if (settings.polish) options.polish = *settings.polish > 0 ? *settings.polish : no_polish;
+  return options;
+}
+
+ifsm::FitFilterOptions options_of_filter(const FitSettings& settings) {
+  auto options = common_options<ifsm::FitFilterOptions>(settings);
+  if (settings.levels) options.kept_levels = *settings.levels > 0 ? *settings.levels : no_levels;
   return options;
 }
 
@@ -64,20 +80,34 @@ class Fitting {
   FittedModel model_of(std::size_t number, const ifsm::Cancel& token) {
     const auto& samples = curves_[number];
     if (settings_.no_fit) return {ifsm::Model(filter_, samples.curve()), std::nullopt};
-    auto options = options_of(settings_);
-    options.start = settings_.filter.empty() ? nullptr : &filter_;
-    if (curves_.size() > 1) options.budgets = fitting_budgets(settings_.budgets, samples);
-    options.cancel = &token;
-    options.progress = [this, number](double fraction, const std::string& stage) {
-      tell(number, fraction, stage);
-      return false;
-    };
-    auto fit = ifsm::fit_sparse({samples.curve()}, options);
+    auto fit = fit_of(samples, number, token);
     auto model = fit.model(0);
     return {std::move(model), std::move(fit)};
   }
 
  private:
+  ifsm::Fit fit_of(const Samples& samples, std::size_t number, const ifsm::Cancel& token) {
+    const std::vector<ifsm::Curve> curve{samples.curve()};
+    if (settings_.stage == "curve")
+      return ifsm::fit_curve(curve, watched(common_options<ifsm::FitCurveOptions>(settings_), number, token));
+    if (settings_.stage == "filter")
+      return ifsm::fit_filter(curve, watched(options_of_filter(settings_), number, token));
+    auto options = options_of_sparse(settings_);
+    if (curves_.size() > 1) options.budgets = fitting_budgets(settings_.budgets, samples);
+    return ifsm::fit_sparse(curve, watched(std::move(options), number, token));
+  }
+
+  template <class Options>
+  Options watched(Options options, std::size_t number, const ifsm::Cancel& token) {
+    options.start = settings_.filter.empty() ? nullptr : &filter_;
+    options.cancel = &token;
+    options.progress = [this, number](double fraction, const std::string& stage) {
+      tell(number, fraction, stage);
+      return false;
+    };
+    return options;
+  }
+
   void tell(std::size_t number, double fraction, const std::string& stage) {
     const auto count = curves_.size();
     const auto which = count > 1 ? "curve " + std::to_string(number + 1) + " of " + std::to_string(count) + ", " : "";

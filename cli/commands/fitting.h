@@ -13,6 +13,8 @@
 namespace cli {
 
 struct FitSettings {
+  std::string stage = "sparse";
+  std::optional<int> levels;  // of stage filter
   std::vector<std::int64_t> budgets;
   std::string control_points;  // a number, "auto", or empty for the default; so is `maps`
   std::string maps;

@@ -1,15 +1,9 @@
 #include <ifsm.h>
 
-#include <string>
-#include <vector>
-
-#include "base/cancel.h"
-#include "base/parallel.h"
-#include "capi/arguments.h"
-#include "capi/fitting.h"
+#include "capi/fit_options.h"
 #include "capi/guarded.h"
-#include "capi/log.h"
 #include "capi/nouns.h"
+#include "fit/certainty.h"
 #include "fit/sparse.h"
 
 using namespace ifsm::core;
@@ -29,13 +23,6 @@ FitOptions options_of(const ifsm_fit_options& given) {
   return options;
 }
 
-void log_summary(const FitResult& fit) {
-  log(LogLevel::info,
-      ("ifsm_fit_sparse: " + std::to_string(fit.iterations) + " iterations, cost " + text_of(fit.start_cost) + " to " +
-       text_of(fit.final_cost) + ", condition " + text_of(fit.start_condition) + " to " + text_of(fit.final_condition))
-          .c_str());
-}
-
 std::size_t curve_in(const FitResult& fit, int64_t curve) {
   return static_cast<std::size_t>(in_range(curve, 0, static_cast<int64_t>(fit.models.size()) - 1, "curve"));
 }
@@ -43,6 +30,19 @@ std::size_t curve_in(const FitResult& fit, int64_t curve) {
 const FitBudget& budget_in(const FitResult& fit, int64_t curve, int64_t budget) {
   const auto& rows = fit.budgets[curve_in(fit, curve)];
   return rows[static_cast<std::size_t>(in_range(budget, 0, static_cast<int64_t>(rows.size()) - 1, "budget"))];
+}
+
+const Certainty& certainty_of(const FitResult& fit) {
+  if (fit.certainty) return *fit.certainty;
+  throw Error(Status::range, "fit", "A fit of stage sparse tells no covariance; ask one of stage curve or filter.");
+}
+
+const CurveCertainty& curve_certainty(const FitResult& fit, std::size_t curve) {
+  const Certainty& certainty = certainty_of(fit);
+  if (!certainty.curves.empty()) return certainty.curves[curve];
+  throw Error(Status::range, "fit",
+              "A fit of stage filter leaves the control points to analysis and tells no "
+              "covariance of them or of the curve; ask one of stage curve.");
 }
 
 }  // namespace
@@ -57,13 +57,64 @@ ifsm_status ifsm_fit_sparse(const ifsm_curve* curves, int64_t curve_count, const
     required(fit, "fit");
     const ifsm_fit_options read = read_options(given);
     const FitOptions options = options_of(read);
-    const Threads threads(static_cast<int>(in_range(read.threads, 0, 1024, "threads")));
+    const Threads threads(threads_of(read.threads));
     const auto token = borrow_if_any(read.cancel, "cancel");
     const auto samples = curves_of(curves, curve_count);
-    Watch watch(token.get(), progress_of(read.progress, read.user));
+    Watch watch(token.get(), progress_of(read));
     auto result = std::make_shared<FitResult>(fit_sparse(samples, options, watch));
-    log_summary(*result);
+    log_summary("ifsm_fit_sparse", *result);
     issue(std::move(result), *fit);
+  });
+}
+
+ifsm_status ifsm_fit_parameters(ifsm_fit handle, int64_t curve, double* parameters, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const auto fit = borrow(handle);
+    const std::size_t c = curve_in(*fit, curve);
+    const Placement& placement = fit->models[c]->placement();
+    const auto where = [&] {
+      if (!fit->parameters.empty()) return fit->parameters[c];
+      std::vector<double> places;
+      for (Index k = 0; k < placement.samples(); ++k) places.push_back(placement.parameter(k));
+      return places;
+    };
+    deliver(placement.samples(), output(parameters, capacity, "parameters"), required(count, "count"), where);
+  });
+}
+
+ifsm_status ifsm_fit_covariance(ifsm_fit handle, int64_t curve, double* covariance, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const auto fit = borrow(handle);
+    const std::size_t c = curve_in(*fit, curve);
+    const CurveCertainty& own = curve_certainty(*fit, c);
+    const Index size = own.control.size();
+    deliver(size * size, output(covariance, capacity, "covariance"), required(count, "count"),
+            [&] { return control_covariance(*fit->certainty, c); });
+  });
+}
+
+ifsm_status ifsm_fit_filter_covariance(ifsm_fit handle, double* covariance, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const auto fit = borrow(handle);
+    const Index size = covariance_size(certainty_of(*fit));
+    deliver(size * size, output(covariance, capacity, "covariance"), required(count, "count"),
+            [&] { return filter_covariance(*fit->certainty); });
+  });
+}
+
+ifsm_status ifsm_fit_curve_covariance(ifsm_fit handle, int64_t curve, const double* parameters, int64_t parameter_count,
+                                      double* covariance, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const auto fit = borrow(handle);
+    const std::size_t c = curve_in(*fit, curve);
+    const Index dimension = curve_certainty(*fit, c).control.cols();
+    const auto at = input(parameters, parameter_count, "parameters", "parameter_count");
+    const auto values = [&] {
+      return curve_covariance(*fit->certainty, c, {at.data, static_cast<std::size_t>(at.count)}, Watch());
+    };
+    require_finite(at.data, at.count, "parameters");
+    deliver(checked_product(at.count, dimension * dimension, "parameter_count"),
+            output(covariance, capacity, "covariance"), required(count, "count"), values);
   });
 }
 
@@ -93,6 +144,11 @@ ifsm_status ifsm_fit_describe(ifsm_fit handle, ifsm_fit_report* report) {
     told.final_cost = fit->final_cost;
     told.start_condition = fit->start_condition;
     told.final_condition = fit->final_condition;
+    told.stage = static_cast<int32_t>(fit->stage);
+    if (fit->certainty) {
+      told.freedom = fit->certainty->freedom;
+      told.noise = fit->certainty->noise;
+    }
     Report(report, "report").write(told);
   });
 }

@@ -2,11 +2,7 @@
 
 #include <ifsm.h>
 
-#include <cmath>
-
-#include "base/parallel.h"
-#include "capi/arguments.h"
-#include "capi/fitting.h"
+#include "capi/fit_options.h"
 #include "capi/guarded.h"
 #include "capi/nouns.h"
 #include "curve/named.h"
@@ -14,15 +10,6 @@
 using namespace ifsm::core;
 
 namespace {
-
-// A limit whose zero means a default.
-double limit_or(double value, double otherwise, const char* argument) {
-  if (std::isnan(value) || std::isinf(value) || value < 0)
-    throw Error(std::isfinite(value) ? Status::range : Status::not_finite, argument,
-                std::string(argument) + " is " + text_of(value) + "; give a positive number, or 0 for the default.")
-        .with(value);
-  return value == 0 ? otherwise : value;
-}
 
 FilterPtr start_of(const ifsm_train_options& given) {
   if (auto start = borrow_if_any(given.start, "start")) return start;
@@ -40,8 +27,8 @@ TrainOptions options_of(const ifsm_train_options& given) {
   if (given.hold_out != 0) in_range(given.hold_out, 2, INT32_MAX, "hold_out");
   options.iterations = count_or(given.iterations, 1000, options.iterations, "iterations");
   options.rounds = count_or(given.rounds, 1000, options.rounds, "rounds");
-  options.limits.condition = limit_or(given.condition, options.limits.condition, "condition");
-  options.limits.reach = limit_or(given.reach, options.limits.reach, "reach");
+  options.limits.condition = positive_or(given.condition, options.limits.condition, "condition");
+  options.limits.reach = positive_or(given.reach, options.limits.reach, "reach");
   return options;
 }
 
@@ -72,8 +59,8 @@ ifsm_status ifsm_train(const ifsm_curve* curves, int64_t curve_count, const ifsm
     const ifsm_train_options read = read_options(given);
     const TrainOptions options = options_of(read);
     const auto token = borrow_if_any(read.cancel, "cancel");
-    const Threads threads(static_cast<int>(in_range(read.threads, 0, 1024, "threads")));
-    Watch watch(token.get(), progress_of(read.progress, read.user));
+    const Threads threads(threads_of(read.threads));
+    Watch watch(token.get(), progress_of(read));
     const TrainResult result = train(curves_of(curves, curve_count), options, watch);
     issue(result.filter, *filter);
     told.write(report_of(result));

@@ -14,6 +14,7 @@ HERE = Path(__file__).parent
 KINDS = {  # kind of a parameter -> what its type looks like
     "status": r"ifsm_status", "text": r"const char \*", "number": r"int32_t|uint64_t|ifsm_status",
     "handle": r"ifsm_\w+", "handle_out": r"ifsm_\w+ \*", "struct_in": r"const ifsm_\w+ \*",
+    "structs_in": r"const ifsm_\w+ \*",
     "options_in": r"const ifsm_\w+_options \*", "options_out": r"ifsm_\w+_options \*", "struct_out": r"ifsm_\w+ \*",
     "size": r"uint32_t", "doubles_in": r"const double \*", "ints_in": r"const int32_t \*",
     "int64s_in": r"const int64_t \*", "bytes_in": r"const uint8_t \*", "count": r"int64_t",

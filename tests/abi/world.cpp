@@ -112,12 +112,11 @@ std::uint64_t World::fresh(const std::string& type) const {
   }
   ifsm_fit made{};
   const ifsm_curve one = curve();
-  ifsm_fit_options options;
-  must(ifsm_fit_options_init(&options, sizeof options), "options");
+  ifsm_fit_curve_options options;  // the stage that every question about a fit can be asked
+  must(ifsm_fit_curve_options_init(&options, sizeof options), "options");
   options.control_points = control_points;
-  options.iterations = options.rounds = 1;
-  options.polish = -1;  // none
-  must(ifsm_fit_sparse(&one, 1, &options, &made), "fit");
+  options.iterations = 1;
+  must(ifsm_fit_curve(&one, 1, &options, &made), "fit");
   return made.id;
 }
 

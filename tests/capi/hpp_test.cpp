@@ -175,6 +175,38 @@ TEST(Cpp, TrainsAFilter) {
   EXPECT_THROW(ifsm::train({{samples, 2}}, options), ifsm::Cancelled);
 }
 
+TEST(Cpp, FitsACurveAndAFilterAlone) {
+  ifsm::FitCurveOptions options;
+  options.control_points = 4;
+  options.iterations = 5;
+  options.parameters = ifsm::Parameters::chord;
+  options.loss = ifsm::Loss::huber;
+  options.loss_scale = 2;
+  options.samples.emplace_back().through(0.5, {60, 1}).along(0, {1, 0});
+  options.samples[0].fixed_ends = true;
+  const ifsm::Fit curve = ifsm::fit_curve({{samples, 2}}, options);
+  EXPECT_EQ(curve.describe().stage, IFSM_STAGE_CURVE);
+  const auto at = curve.sketch(0, 0).evaluate({0, 0.5});
+  EXPECT_NEAR(at[0], samples[0], 1e-10);
+  EXPECT_NEAR(at[2], 60, 1e-10);
+  EXPECT_NEAR(at[3], 1, 1e-10);
+  EXPECT_EQ(curve.parameters(0).size(), 129U);
+  EXPECT_EQ(curve.covariance(0).size(), 64U);
+  EXPECT_EQ(curve.filter_covariance().size(), 784U);
+  EXPECT_EQ(curve.curve_covariance(0, {0.1, 0.9}).size(), 8U);
+  options.samples.emplace_back();
+  EXPECT_THROW(ifsm::fit_curve({{samples, 2}}, options), ifsm::Error);
+
+  ifsm::FitFilterOptions levels;
+  levels.control_points = 3;
+  levels.kept_levels = 2;
+  const ifsm::Fit filter = ifsm::fit_filter({{samples, 2}}, levels);
+  EXPECT_EQ(filter.describe_budget(0, 0).details, 6);
+  EXPECT_LE(filter.describe_budget(0, 0).rms, filter.describe_budget(0, 0).start_rms);
+  EXPECT_EQ(filter.filter_covariance().size(), 100U);
+  EXPECT_THROW(filter.covariance(0), ifsm::Error);
+}
+
 TEST(Cpp, CarriesWhatACallbackThrowsAroundTheLibrary) {
   auto options = quick();
   options.progress = [](double, const std::string&) -> bool { throw std::domain_error("mine"); };

@@ -524,6 +524,20 @@ class Output(Program):
                 self.assertEqual(result.returncode, 4, result.stderr)
                 self.assertIn("standard output", result.stderr)
 
+    def test_stages_fit_alone_and_give_exact_models(self):
+        points = rough_ring(200)
+        source, model, back = self.file("in.csv", table(points)), self.file("m.ifsm"), self.file("out.csv")
+        for stage, details in ("curve", 0), ("filter", (1 + 2) * 4):
+            extra = ("--levels", 2) if stage == "filter" else ()
+            report = json.loads(self.fine("fit", source, "--closed", "--stage", stage, *extra, "--json", "-q", "-o", model))
+            (row,) = report["fit"]["budgets"]
+            self.assertEqual(row["details"], details)
+            self.assertLess(row["rms"], row["start_rms"])
+            self.fine("synth", model, "-o", back)
+            self.assertLess(largest_gap(points, numbers(back.read_text())), 1e-9)
+        self.refused(2, "--budget", "fit", source, "--stage", "curve", "--budget", 8, "-o", model)
+        self.refused(2, "--levels", "fit", source, "--levels", 2, "-o", model)
+
 
 class Questions(Program):
     def test_a_curve_is_measured(self):

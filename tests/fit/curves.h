@@ -27,6 +27,13 @@ inline Points loop(Index count, Index dimension, unsigned seed) {
   return points;
 }
 
+// Every so many of the points, that many in all.
+inline Points resampled(const Points& points, Index count) {
+  Points fewer(points.dimension(), count);
+  for (Index k = 0; k < count; ++k) fewer.matrix().row(k) = points.matrix().row(k * (points.count() - 1) / (count - 1));
+  return fewer;
+}
+
 // The Koch curve's own samples: a joined model of its filter without details.
 inline Points koch_samples(int levels) {
   const FilterPtr filter = named_filter("koch", Topology::joined, 0, 0);

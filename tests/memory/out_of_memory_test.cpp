@@ -34,7 +34,7 @@ enum Ending : int {
 struct World {
   ifsm_filter filter{};
   ifsm_model model{};
-  ifsm_fit fit{};
+  ifsm_fit fit{}, curve_fit{};
   std::vector<double> samples, matrix, details, polygon;
   std::vector<std::uint8_t> json, cbor;
   std::vector<double> room = std::vector<double>(4096);
@@ -93,6 +93,38 @@ ifsm_status train_small(World& world, std::uint64_t* made) {
   report.struct_size = sizeof report;
   const ifsm_curve few = {world.samples.data(), 9, 2, 0};
   return ifsm_train(&few, 1, &options, as<ifsm_filter>(made), &report);
+}
+
+// Everything that stage curve can be told. A tangent and ends of three control points leave three coordinates free.
+ifsm_status fit_curve(World& world, std::uint64_t* made, std::int32_t loss) {
+  const std::int32_t kinds[] = {IFSM_CONSTRAINT_TANGENT};
+  const double parameters[] = {0}, values[] = {1, 1}, weights[] = {1, 2, 3, 4, 5, 4, 3, 2, 1};
+  ifsm_fit_samples told{};
+  told.weights = weights, told.weight_count = 9;
+  told.constraint_kinds = kinds, told.constraint_parameters = parameters, told.constraint_values = values;
+  told.constraint_count = 1, told.fixed_ends = 1;
+  ifsm_fit_curve_options options{};
+  options.struct_size = sizeof options;
+  options.control_points = 3;
+  options.iterations = options.starts = 1;
+  options.parameters = IFSM_PARAMETERS_CHORD;
+  options.loss = loss, options.loss_scale = loss == IFSM_LOSS_SQUARES ? 0 : 30;
+  options.reparameterise = loss == IFSM_LOSS_SQUARES ? 0 : 1;
+  options.samples = &told, options.sample_count = 1;
+  const ifsm_curve few = {world.samples.data(), 9, 2, 0};
+  return ifsm_fit_curve(&few, 1, &options, as<ifsm_fit>(made));
+}
+
+ifsm_status fit_curve_small(World& world, std::uint64_t* made) { return fit_curve(world, made, IFSM_LOSS_SQUARES); }
+ifsm_status fit_curve_robust(World& world, std::uint64_t* made) { return fit_curve(world, made, IFSM_LOSS_HUBER); }
+
+ifsm_status fit_filter_small(World& world, std::uint64_t* made) {
+  ifsm_fit_filter_options options{};
+  options.struct_size = sizeof options;
+  options.control_points = 3;
+  options.kept_levels = options.iterations = 1;
+  const ifsm_curve few = {world.samples.data(), 9, 2, 0};
+  return ifsm_fit_filter(&few, 1, &options, as<ifsm_fit>(made));
 }
 
 ifsm_status keep_with(World& world, std::uint64_t* made, std::int32_t resolve) {
@@ -290,6 +322,28 @@ const Scenario scenarios[] = {
     {"fit_sketch", "ifsm_fit_sketch", 1, 1,
      [](World& world, std::uint64_t* made) { return ifsm_fit_sketch(world.fit, 0, 0, as<ifsm_model>(made)); },
      drop_model},
+    {"fit_covariance", "ifsm_fit_covariance", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_fit_covariance(world.curve_fit, 0, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"fit_curve_covariance", "ifsm_fit_curve_covariance", 1, 1,
+     [](World& world, std::uint64_t*) {
+       const double parameters[] = {0.7, 0.25, 1};
+       std::int64_t count = 0;
+       return ifsm_fit_curve_covariance(world.curve_fit, 0, parameters, 3, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"fit_filter_covariance", "ifsm_fit_filter_covariance", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_fit_filter_covariance(world.curve_fit, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"fit_curve", "ifsm_fit_curve", 1, 1, fit_curve_small, drop_fit},
+    {"fit_curve_robust", "ifsm_fit_curve", 1, 7, fit_curve_robust, drop_fit},
+    {"fit_filter", "ifsm_fit_filter", 1, 1, fit_filter_small, drop_fit},
     {"fit_sparse", "ifsm_fit_sparse", 1, 1, fit_small, drop_fit},
     {"fit_sparse_polished", "ifsm_fit_sparse", 1, 7, fit_polished, drop_fit},
     {"train", "ifsm_train", 1, 7, train_small, drop_filter},
@@ -314,6 +368,7 @@ World make_world() {
   EXPECT_EQ(ifsm_filter_named("casteljau", IFSM_TOPOLOGY_JOINED, 3, 2, &world.filter), IFSM_OK);
   EXPECT_EQ(ifsm_model_create(world.filter, &world.curve, nullptr, &world.model), IFSM_OK);
   EXPECT_EQ(fit_small(world, &world.fit.id), IFSM_OK);
+  EXPECT_EQ(fit_curve_small(world, &world.curve_fit.id), IFSM_OK);
   world.matrix = read<double>([&](double* to, std::int64_t room, std::int64_t* count) {
     return ifsm_filter_matrix(world.filter, to, room, count);
   });
@@ -375,14 +430,14 @@ Ending run_child(const Scenario& scenario, World& world, std::int64_t which) {
   return status == IFSM_OK ? got_by : refused;
 }
 
+// Those that run Ceres.
+bool fits(const Scenario& scenario) {
+  return scenario.drop == drop_fit || std::string(scenario.function) == "ifsm_train";
+}
+
 struct Tally {
   std::int64_t sites = 0, refused = 0, got_by = 0, leaked = 0, aborted = 0;
 };
-
-bool goes_through_ceres(const Scenario& scenario) {
-  const std::string function = scenario.function;
-  return function == "ifsm_fit_sparse" || function == "ifsm_train";
-}
 
 Tally fail_one_by_one(const Scenario& scenario, World& world) {
   Tally tally;
@@ -410,7 +465,7 @@ Tally fail_one_by_one(const Scenario& scenario, World& world) {
     const int ending = WEXITSTATUS(status);
     if (ending == succeeded) return tally;
     ++tally.sites;
-    const bool through_ceres = goes_through_ceres(scenario);
+    const bool through_ceres = fits(scenario);
     if (ending == refused)
       ++tally.refused;
     else if (ending == got_by)
@@ -435,10 +490,11 @@ TEST_P(OutOfMemory, IsAnErrorAndNothingElse) {
   // Problem::AddResidualBlock runs out of memory, it loses a block of its own. Those are the exceptions, and they are
   // held to the number of places that there are today, in a fit of one round.
   const std::int64_t rounds = std::string(GetParam().name) == "fit_sparse_polished" ? 2 : 1;
-  const bool through_ceres = goes_through_ceres(GetParam());
+  const bool through_ceres = fits(GetParam());
   EXPECT_LE(tally.aborted, through_ceres ? 8 * rounds : 0);
   EXPECT_LE(tally.leaked, through_ceres ? 3 * rounds : 0);
   EXPECT_EQ(ifsm_fit_destroy(world.fit), IFSM_OK);
+  EXPECT_EQ(ifsm_fit_destroy(world.curve_fit), IFSM_OK);
   EXPECT_EQ(ifsm_model_destroy(world.model), IFSM_OK);
   EXPECT_EQ(ifsm_filter_destroy(world.filter), IFSM_OK);
 }

@@ -1,4 +1,4 @@
-// What every fit of the filter refuses.
+// How many vectors, control points and details together, a sketch of a curve may hold.
 #pragma once
 
 #include <vector>
@@ -7,12 +7,6 @@
 #include "fit/curve.h"
 
 namespace ifsm::core {
-
-// At least one curve, all of one dimension.
-void require_curves(const std::vector<FitCurve>& curves);
-
-// Joined, and with few enough free entries.
-void require_start(const FilterPtr& start);
 
 // Vectors that a curve's model holds, control points and details; the fewest of several.
 Index vectors_of(const FitCurve& curve, const Shape& shape);
