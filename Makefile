@@ -7,7 +7,7 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 22
 
 demo: release ## fit the coast of Iceland: pictures and a table of errors in out/
-	@$(build) release --target ifsm_demo
+	@$(build) release --target ifsm_demo ifsm_cli ifsm_static
 	build/release/bin/ifsm-demo data/coast/iceland.csv out
 
 test: release ## build everything and run all tests

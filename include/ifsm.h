@@ -15,7 +15,7 @@
  *       double points[257 * 2];
  *       int64_t count = 0;
  *       if (ifsm_keep_options_init(&keep, sizeof keep)) return 1;
- *       keep.rule = IFSM_KEEP_COUNT, keep.count = 32, keep.resolve = IFSM_RESOLVE_VALUES;
+ *       keep.rule = IFSM_KEEP_COUNT, keep.count = 32, keep.resolve = IFSM_RESOLVE_CHOICE;
  *       if (ifsm_fit_sparse(&curve, 1, NULL, &fit) || ifsm_fit_model(fit, 0, &model) ||
  *           ifsm_model_keep(model, &keep, &sketch) || ifsm_model_samples(sketch, points, 257 * 2, &count)) {
  *         ifsm_error error = {.struct_size = sizeof error};
@@ -296,7 +296,8 @@ typedef struct ifsm_model_info {
  *
  * filter    borrowed (the model keeps its matrix)
  * curve     borrowed; sample k of m sits at place (2k(g-1) + m-1) div (2(m-1)) of the g places of level L (closed:
- *           k g div m); places between are filled linearly
+ *           k g div m); places between are filled linearly. (n-1) N^L + 1 samples (closed: one less) fill every
+ *           place; of other counts smooth curves look rougher than they are (docs/fitting.md)
  * options   borrowed; NULL for defaults
  * model     [out] owned by the caller
  *
@@ -451,7 +452,8 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_with_filter(ifsm_model model, ifsm
 /* Which details to keep. */
 enum {
   IFSM_KEEP_LEVELS = 1,   /* all details of the first `count` levels */
-  IFSM_KEEP_COUNT = 2,    /* the `count` most significant ones */
+  IFSM_KEEP_COUNT = 2,    /* the `count` most significant ones (control points not counted); under a filter that was
+                             fitted its details are large and cancel, and size misleads: add IFSM_RESOLVE_CHOICE */
   IFSM_KEEP_THRESHOLD = 3 /* those whose significance is above `threshold` */
 };
 
@@ -459,8 +461,8 @@ enum {
 enum {
   IFSM_RESOLVE_NONE = 0,   /* they stay as analysis gave them */
   IFSM_RESOLVE_VALUES = 1, /* control points and kept details are solved anew: least squares against the samples */
-  IFSM_RESOLVE_CHOICE = 2  /* and which details are kept is bettered, their number staying: the nearest sketch, the
-                              slowest (joined; square: as VALUES) */
+  IFSM_RESOLVE_CHOICE = 2  /* and which details are kept is bettered, their number staying: the nearest sketch found, the
+                              slowest (joined; square: as VALUES); ifsm_fit_sketch has the one that a fit ended with */
 };
 
 typedef struct ifsm_keep_options {
@@ -527,7 +529,9 @@ typedef struct ifsm_fit_options {
   int32_t control_points; /* n, 2 … 16; 0: 5; -1: chosen among 2 … 6 */
   int32_t maps;           /* N, 2 … 8; 0: 2; -1: chosen among 2 … 4 */
   const int64_t *budgets; /* borrowed: how many vectors, control points and details together, a sketch may hold that
-                             is to be near the curve, each n …; NULL: 128 alone, or all vectors of smaller curves */
+                             is to be near its curve: from n to what the model of the smallest curve holds. One tells
+                             the curve best by that many; several make a filter that is good at all. NULL: 128 alone, or
+                             a quarter of the samples of smaller curves */
   int64_t budget_count;   /* 0 … 64 */
   int32_t iterations;     /* Levenberg-Marquardt iterations a round at most, 1 … 1000; 0: 40 */
   int32_t rounds;         /* rounds of sparsity, each with its scale estimated anew, 1 … 100; 0: 2 */
@@ -588,8 +592,12 @@ typedef struct ifsm_fit_budget {
  * curves        borrowed: all of one dimension
  * curve_count   1 …
  * options       borrowed; NULL for defaults
- * fit           [out] owned by the caller: at every budget asked for, its RMS is at most the start's (the maximum may
- *               grow)
+ * fit           [out] owned by the caller: at every budget asked for, its RMS is at most the start's, or rounding (the
+ *               maximum may grow)
+ *
+ * R's free entries, (R's rows - 1)(rows - 2), are at most 1024 (LIMIT). A fit of 4097 points in the plane at one budget takes
+ * about a second. To edit a curve by its control points, a filter that was not fitted to it makes better handles:
+ * docs/fitting.md.
  *
  * Errors: NULL, RANGE, SHAPE, NOT_FINITE, INVALID_HANDLE, CANCELLED, NUMERICAL, LIMIT, OPTIONS, MEMORY. Deterministic.
  * The callbacks run on this thread. Source: paper 002, section 4; docs/fitting.md. Since 0.1. */

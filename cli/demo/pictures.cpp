@@ -150,7 +150,7 @@ std::string coast_picture(const Study& study) {
   panel.y.label = "north in km";
   Figure figure;
   figure.height = 1250;
-  figure.title = "Iceland's coast and the polygon it grows from";
+  figure.title = "The coast and the polygon it grows from";
   figure.note = "The model: " + std::to_string(info.control_points) + " control points" +
                 (ring ? " (the last is the first again)" : "") + ", one small matrix, and " +
                 std::to_string(info.details) + " details on " + std::to_string(info.levels) +
@@ -193,7 +193,8 @@ std::string details_picture(const Study& study) {
   figure.title = "The same number of vectors under two filters";
   figure.note =
       "K: control points and details together, chosen and solved alike in both rows. Grey: the coast. Upper row: the "
-      "starting filter (de Casteljau). Lower row: the filter fitted to this coast at this K, which costs " +
+      "starting filter (coast, trained on other coasts). Lower row: the filter fitted to this coast at this K, which "
+      "costs " +
       std::to_string(study.numbers_of_filter) + " numbers of its own.";
   std::vector<std::vector<Point>> drawn{coast(study)};
   const auto add = [&](Sketch Row::*side, const Stroke& stroke, const std::string& name) {

@@ -8,7 +8,7 @@
 namespace demo {
 namespace {
 
-constexpr const char* start_name = "casteljau";
+constexpr const char* start_name = "coast";
 
 // Free numbers of a joined R: every entry but the fixed end columns and the columns' sums.
 std::int64_t free_numbers(const ifsm_filter_info& filter) {

@@ -11,7 +11,7 @@ int main(void) {
   double points[257 * 2];
   int64_t count = 0;
   if (ifsm_keep_options_init(&keep, sizeof keep)) return 1;
-  keep.rule = IFSM_KEEP_COUNT, keep.count = 32, keep.resolve = IFSM_RESOLVE_VALUES;
+  keep.rule = IFSM_KEEP_COUNT, keep.count = 32, keep.resolve = IFSM_RESOLVE_CHOICE;
   if (ifsm_fit_sparse(&curve, 1, NULL, &fit) || ifsm_fit_model(fit, 0, &model) ||
       ifsm_model_keep(model, &keep, &sketch) || ifsm_model_samples(sketch, points, 257 * 2, &count)) {
     ifsm_error error = {.struct_size = sizeof error};
