@@ -426,7 +426,8 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_significance(ifsm_model model, int
 /* A new model with other control points.
  *
  * frame       ABSOLUTE: details stay as they are; NODE: they turn and scale as their own polygons do, so that texture
- *             follows the curve; a part that moves as a whole is moved as a whole
+ *             follows the curve; a part that moves as a whole is moved as a whole. For "casteljau" and its kind: under
+ *             trained and fitted filters details of several levels cancel, and ABSOLUTE bends better (docs/fitting.md)
  * points      borrowed: n × dimension doubles; of a closed joined model the last one is the first
  * count       doubles in `points`
  * changed     [out] owned by the caller
@@ -596,7 +597,7 @@ typedef struct ifsm_fit_budget {
  *               maximum may grow)
  *
  * R's free entries, (R's rows - 1)(rows - 2), are at most 1024 (LIMIT). A fit of 4097 points in the plane at one budget takes
- * about a second. To edit a curve by its control points, a filter that was not fitted to it makes better handles:
+ * about a second. To bend a curve by its control points, "casteljau" makes better handles than a fitted filter:
  * docs/fitting.md.
  *
  * Errors: NULL, RANGE, SHAPE, NOT_FINITE, INVALID_HANDLE, CANCELLED, NUMERICAL, LIMIT, OPTIONS, MEMORY. Deterministic.
