@@ -1,6 +1,7 @@
 // ifsm: the program. What it computes, it asks of the library, through the C ABI alone.
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include <ifsm.hpp>
 
@@ -16,7 +17,7 @@ constexpr const char* footer =
     "  2    usage: an option, a value, or a combination that does not go\n"
     "  3    input: a file that is missing, unreadable, or not what it should be\n"
     "  4    output: a file that cannot be written\n"
-    "  130  cancelled by Ctrl-C or a signal; nothing was written\n"
+    "  130  cancelled by Ctrl-C or a signal; no file was written\n"
     "\n"
     "Examples:\n"
     "  ifsm fit coast.csv --closed -o coast.ifsm\n"
@@ -63,6 +64,8 @@ int main(int argc, char** argv) {
   } catch (const ifsm::Error& error) {
     // What the commands let through unchecked are numbers that the library found out of its range.
     return fail(error.status == IFSM_ERROR_RANGE ? cli::Exit::Usage : cli::Exit::Computing, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(cli::Exit::Computing, "there is not enough memory for this; ask for less, e.g. fewer points.");
   } catch (const std::exception& error) {
     return fail(cli::Exit::Computing, error.what());
   }

@@ -67,6 +67,8 @@ ifsm::Filter start_filter(const std::string& name, int control_points, int maps)
   }
 }
 
+std::string file_of_filter(const std::string& filter) { return is_path(filter) ? filter : std::string(); }
+
 void require_joined(const ifsm::Filter& filter, const std::string& name) {
   if (filter.describe().topology != IFSM_TOPOLOGY_JOINED)
     throw Failure(Exit::Usage, "--filter: '" + name +

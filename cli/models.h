@@ -21,6 +21,8 @@ bool looks_like_model(std::string_view bytes);
 // the filter of that model. Empty: where a fit starts that is told nothing. 0 chooses the filter's own numbers. Throws
 // Failure{Usage, Input}.
 ifsm::Filter start_filter(const std::string& filter, int control_points, int maps);
+// The file that such a filter is read from; empty when it is a name.
+std::string file_of_filter(const std::string& filter);
 void require_joined(const ifsm::Filter& filter, const std::string& name);
 
 }  // namespace cli

@@ -38,6 +38,10 @@ std::string printable(std::string_view text) {
   return fit;
 }
 
+std::string valid_utf8(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
+
 std::string aligned(const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows,
                     std::size_t left) {
   std::vector<std::size_t> widths;

@@ -90,7 +90,7 @@ void PointsOutput::write(Table table) const {
 
 void tell_report(const Talk& talk, const std::string& output, const std::function<Json()>& report,
                  std::string (*in_words)(const Json&)) {
-  if (output == "-" || (talk.quiet && !talk.json)) return;
+  if (goes_to_standard_output(output) || (talk.quiet && !talk.json)) return;
   const auto told = report();
   print(talk.json ? text_of(told) : in_words(told));
 }
@@ -100,14 +100,18 @@ ifsm::Format format_of(const std::string& output, const std::string& format) {
   return ends_with(output, ".json") ? ifsm::Format::json : ifsm::Format::cbor;
 }
 
-void check_model_output(const std::string& output, const std::string& format) {
-  if (output == "-" && format_of(output, format) == ifsm::Format::cbor && isatty(STDOUT_FILENO))
+void refuse_binary_on_terminal(const std::string& output, ifsm::Format format) {
+  if (format == ifsm::Format::cbor && isatty(STDOUT_FILENO) && goes_to_standard_output(output))
     throw Failure(Exit::Usage, "CBOR is not for a terminal; add --format json, or name a file with -o.");
+}
+
+void check_model_output(const std::string& output, const std::string& format) {
+  refuse_binary_on_terminal(output, format_of(output, format));
   check_writable(output);
 }
 
 void refuse_json_beside_result(const Talk& talk, const std::string& output) {
-  if (talk.json && output == "-")
+  if (talk.json && goes_to_standard_output(output))
     throw Failure(Exit::Usage, "--json and the result both want standard output; name a file with -o.");
 }
 

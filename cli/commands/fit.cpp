@@ -1,6 +1,4 @@
 // ifsm fit: samples in, models out.
-#include <unistd.h>
-
 #include <filesystem>
 #include <memory>
 
@@ -9,6 +7,7 @@
 #include "commands/fitting.h"
 #include "failure.h"
 #include "files.h"
+#include "models.h"
 #include "targets.h"
 
 namespace cli {
@@ -53,8 +52,7 @@ void check_arguments(const FitArguments& arguments) {
   if (settings.levels && settings.stage != "filter")
     throw Failure(Exit::Usage, "--levels is for --stage filter: the levels whose details its filter is to tell well.");
   refuse_json_beside_result(arguments.talk, arguments.output);
-  if (arguments.output == "-" && format_of(arguments) == ifsm::Format::cbor && isatty(STDOUT_FILENO))
-    throw Failure(Exit::Usage, "CBOR is not for a terminal; add --format json, or name a file with -o.");
+  refuse_binary_on_terminal(arguments.output, format_of(arguments));
 }
 
 Targets targets_of(const FitArguments& arguments, const std::vector<Samples>& curves) {
@@ -69,8 +67,10 @@ Existing existing_of(const FitArguments& arguments, const Targets& targets) {
 }
 
 void check_targets(const FitArguments& arguments, const Targets& targets) {
+  const auto filter = file_of_filter(arguments.settings.filter);
   for (const auto& path : targets.paths) {
     check_writable(path);
+    check_not_read(path, {arguments.input, filter});
     check_absent(path, existing_of(arguments, targets));
   }
 }

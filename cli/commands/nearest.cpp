@@ -21,6 +21,7 @@ void run(const NearestArguments& arguments) {
   if (arguments.model == "-" && arguments.queries == "-")
     throw Failure(Exit::Usage, "the model and the points cannot both come from standard input.");
   check_writable(arguments.output.path);
+  check_not_read(arguments.output.path, {arguments.model, arguments.queries});
   const auto model = load_model(arguments.model);
   const auto source = input_name(arguments.queries);
   const auto queries = parse_csv(read_file(arguments.queries), source, {arguments.columns});

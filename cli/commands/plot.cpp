@@ -122,6 +122,7 @@ void check_arguments(const PlotArguments& arguments) {
   if (arguments.input == "-" && arguments.samples == "-")
     throw Failure(Exit::Usage, "the model and its samples cannot both come from standard input.");
   check_writable(arguments.output);
+  check_not_read(arguments.output, {arguments.input, arguments.samples});
 }
 
 void check_one_dimension(const std::vector<Samples>& curves, const std::string& name) {
@@ -234,7 +235,8 @@ void run(const PlotArguments& arguments, Session& session) {
   const auto subject = read_subject(arguments);
   check_one_dimension(subject.curves, subject.name);
   auto page = drawn(arguments, subject, session);
-  const auto figure = figures::page_of(std::move(page.panels), title_of(arguments), note_of(subject), arguments.size);
+  const auto figure =
+      figures::page_of(std::move(page.panels), valid_utf8(title_of(arguments)), note_of(subject), arguments.size);
   const auto format = format_of(arguments);
   const auto bytes = figure.bytes(format);
   write_file(arguments.output, bytes);

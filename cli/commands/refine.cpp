@@ -27,6 +27,7 @@ void run(const RefineArguments& arguments) {
   constexpr double none = -1;
   refuse_json_beside_result(arguments.talk, arguments.output);
   check_model_output(arguments.output, arguments.format);
+  check_not_read(arguments.output, {arguments.model});
   const auto model = load_model(arguments.model);
   auto options = arguments.options;
   options.roughness = arguments.roughness == 0 ? none : arguments.roughness;

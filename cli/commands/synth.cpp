@@ -95,6 +95,7 @@ void check_arguments(const SynthArguments& arguments) {
   if (!arguments.resolve.empty() && keeps_all(arguments))
     throw Failure(Exit::Usage, "--resolve solves anew what is kept; add --levels, --details or --threshold.");
   check_writable(arguments.output.path);
+  check_not_read(arguments.output.path, {arguments.model});
 }
 
 void check_position(int dimension) {

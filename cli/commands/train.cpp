@@ -133,6 +133,9 @@ std::string in_words(const Json& report) {
 void run(const TrainArguments& arguments, Session& session) {
   refuse_json_beside_result(arguments.talk, arguments.output);
   check_writable(arguments.output);
+  auto read = arguments.inputs;
+  read.push_back(file_of_filter(arguments.filter));
+  check_not_read(arguments.output, read);
   const Curves family = read_family(arguments);
   tell_notes(family.notes, arguments.talk);
   const auto result = trained(arguments, family, session);

@@ -524,6 +524,61 @@ class Output(Program):
                 self.assertEqual(result.returncode, 4, result.stderr)
                 self.assertIn("standard output", result.stderr)
 
+    def test_standard_output_is_written_to_under_any_name(self):
+        model, log = self.model(), self.file("log.txt")
+        table = self.fine("synth", model, "--samples", 2)
+        for name in ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "/dev/stderr"):
+            with open(log, "w") as output:
+                for write in (lambda: os.write(output.fileno(), b"before\n"),
+                              lambda: subprocess.run([PROGRAM, "synth", model, "--samples", "2", "-o", name], check=True,
+                                                     stdout=output, stderr=output),
+                              lambda: os.write(output.fileno(), b"after\n")):
+                    write()
+            self.assertEqual(log.read_text(), "before\n" + table + "after\n", name)
+        self.refused(2, "standard output", "synth", model, "--json", "-o", "/dev/stdout")
+
+    def test_an_input_is_not_replaced(self):
+        model, points = self.model(), self.folder / "ring.csv"
+        before = {name: self.file(name).read_bytes() for name in self.names()}
+        for arguments in (("fit", points, "--closed", "--no-fit", "-o", points), ("synth", model, "-o", model),
+                          ("refine", model, "-o", model), ("train", points, points, "-o", points),
+                          ("eval", model, "--params", points, "-o", points), ("nearest", model, points, "-o", points),
+                          ("plot", model, "--format", "svg", "-o", model)):
+            self.refused(2, "is the file that is read", *arguments)
+        with open(model) as stdin:
+            result = subprocess.run([PROGRAM, "synth", "-", "-o", str(model)], stdin=stdin, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("(standard input)", result.stderr)
+        self.assertEqual({name: self.file(name).read_bytes() for name in self.names()}, before)
+
+    def test_paths_that_lead_nowhere(self):
+        model = self.model()
+        self.file("loop").symlink_to("loop")
+        before = self.names()
+        for name, words in (("x" * 300, "too long"), ("loop", "symbolic links"), ("ring.csv/x", "ot a directory")):
+            self.refused(4, words, "synth", model, "-o", self.file(name))
+            self.refused(4, words, "fit", self.file("ring.csv"), "--no-fit", "-o", self.file(name))
+        self.refused(2, "-o '' names no file", "synth", model, "-o", "")
+        self.assertEqual(self.names(), before)
+
+    def test_names_need_not_be_utf_8(self):
+        points, model = os.fsencode(self.model().with_name("ring.csv")), os.fsencode(self.folder / "m") + b"\xff.ifsm"
+        picture = os.fsencode(self.folder / "p") + b"\xff.svg"
+        for arguments in ([b"fit", points, b"--no-fit", b"--json", b"-o", model],
+                          [b"plot", model, b"--show", b"curve", b"--json", b"-q", b"-o", picture]):
+            result = subprocess.run([PROGRAM, *arguments], capture_output=True)
+            self.assertEqual((result.returncode, result.stderr.replace(b"\xff", b"")), (0, b""))
+            self.assertIn("\ufffd", json.loads(result.stdout.decode())["output"])
+
+    @unittest.skipIf("SANITIZED" in os.environ, "sanitizers reserve more address space than the limit")
+    def test_too_little_memory_is_a_sentence(self):
+        model = self.model()
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+        before = self.names()
+        self.refused(1, "ifsm: there is not enough memory", "synth", model, "--samples", 2147483647, "-o",
+                     self.file("big.csv"), preexec_fn=limit)
+        self.assertEqual(self.names(), before)
+
     def test_stages_fit_alone_and_give_exact_models(self):
         points = rough_ring(200)
         source, model, back = self.file("in.csv", table(points)), self.file("m.ifsm"), self.file("out.csv")
@@ -645,9 +700,52 @@ class Signals(Program):
             self.assertEqual(self.file("m.ifsm").read_text(), "before")
 
     def test_a_signal_while_waiting_for_input(self):
-        code, _, _ = self.interrupted(signal.SIGINT, "fit", "-", "-o", self.file("m.ifsm"), after=0.5, stdin=subprocess.PIPE)
-        self.assertEqual(code, 130)
+        code, _, errors = self.interrupted(signal.SIGINT, "fit", "-", "-o", self.file("m.ifsm"), after=0.5, stdin=subprocess.PIPE)
+        self.assertEqual((code, errors), (130, "ifsm: cancelled; nothing was written.\n"))
         self.assertEqual(self.names(), [])
+
+    def behind_a_full_pipe(self, *arguments):
+        """Started with a standard output that takes nothing; and the end from which it can be emptied."""
+        reader, writer = os.pipe()
+        os.set_blocking(writer, False)
+        try:
+            while True:
+                os.write(writer, b" " * 4096)
+        except BlockingIOError:
+            os.set_blocking(writer, True)
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=writer, stderr=subprocess.PIPE, text=True,
+                                   preexec_fn=default_signals)
+        os.close(writer)
+        self.addCleanup(process.stderr.close)
+        return process, os.fdopen(reader)
+
+    def test_a_signal_after_the_result_is_in_place_is_too_late(self):
+        model, target = self.model(), self.file("keep.csv")
+        for signals, code in ((1, 0), (2, 4)):
+            process, pipe = self.behind_a_full_pipe("synth", model, "-o", target)
+            with pipe:
+                while not target.exists():
+                    time.sleep(0.01)
+                for _ in range(signals):
+                    time.sleep(0.2)
+                    self.assertIsNone(process.poll())
+                    process.send_signal(signal.SIGINT)
+                time.sleep(0.2)
+                if code != 0:
+                    process.wait(timeout=60)
+                told = pipe.read().strip()
+            self.assertEqual(process.wait(timeout=60), code)
+            self.assertEqual(len(numbers(target.read_text())), 300)
+            self.assertIn("keep.csv: 300 points" if code == 0 else "the result is written", told + process.stderr.read())
+            target.unlink()
+
+    def test_a_signal_while_a_pipe_takes_nothing(self):
+        process, pipe = self.behind_a_full_pipe("synth", self.model())
+        with pipe:
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(timeout=60), 130)
+            self.assertEqual(process.stderr.read(), "ifsm: cancelled; the output got a part only.\n")
 
 
 if __name__ == "__main__":
