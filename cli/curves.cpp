@@ -154,6 +154,9 @@ Curves curves_of_geojson(std::string_view text, const std::string& source, const
 }
 
 Curves curves_of_table(std::string_view text, const std::string& source, const Reading& reading) {
+  if (reading.columns.size() > most_dimensions)
+    throw Failure(Exit::Usage,
+                  "--columns names " + std::to_string(reading.columns.size()) + " columns; a curve has 1 to 4.");
   auto table = parse_csv(text, source, {reading.columns, reading.gaps != Gaps::Refused, gap_advice});
   check_shape(table, source);
   Preparation preparation(source, reading);

@@ -6,6 +6,7 @@
 #include <ifsm.hpp>
 
 #include "commands/command.h"
+#include "commands/usage.h"
 #include "failure.h"
 
 namespace {
@@ -44,11 +45,13 @@ int run(int argc, char** argv) {
   for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_plot, cli::add_measure,
                          cli::add_nearest, cli::add_refine, cli::add_train})
     add(program, session);
+  cli::check_command(program, argc, argv);
   try {
     program.parse(argc, argv);
     return static_cast<int>(cli::Exit::Fine);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : static_cast<int>(cli::Exit::Usage);
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    return fail(cli::Exit::Usage, cli::sentence_of(program, error).c_str());
   }
 }
 

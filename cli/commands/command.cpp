@@ -1,4 +1,5 @@
 #include "commands/command.h"
+#include "commands/values.h"
 
 #include <unistd.h>
 #include <cmath>
@@ -28,7 +29,8 @@ void add_reading(CLI::App& command, Reading& reading) {
   static const std::map<std::string, Gaps> ways{{"split", Gaps::Split}, {"bridge", Gaps::Bridged}};
   command.add_option("--columns", reading.columns, "Columns to read, by header or number from 1, e.g. x,y")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(column_name());
   command.add_flag("--closed", reading.closed, "The curve is a ring: the last point joins the first");
   command
       .add_option_function<std::string>(

@@ -36,8 +36,8 @@ std::vector<double> column(const std::string& text, const std::string& source) {
 std::vector<double> typed(const std::string& text) {
   try {
     return parse_csv(text, "--at").values;
-  } catch (const Failure& failure) {
-    throw Failure(Exit::Usage, failure.what());
+  } catch (const Failure&) {
+    throw Failure(Exit::Usage, "--at: '" + text + "' is no list of numbers, such as 0.25,0.5.");
   }
 }
 

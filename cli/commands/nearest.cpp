@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "commands/command.h"
+#include "commands/values.h"
 #include "curves.h"
 #include "failure.h"
 #include "files.h"
@@ -48,7 +49,9 @@ void add_nearest(CLI::App& program, Session&) {
   command->add_option("model", a.model, "A model written by ifsm fit; - is standard input")->required();
   command->add_option("points", a.queries, "A table of points; - is standard input")->required();
   command->add_option("--columns", a.columns, "Columns to read, by header or by number from 1, e.g. x,y")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(column_name());
   add_points_output(*command, a.output);
   command->footer(
       "A line for each point: its parameter on the curve, its distance, and the curve's point there.\n\n"

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "commands/command.h"
+#include "commands/values.h"
 #include "failure.h"
 #include "figures/page.h"
 #include "figures/panels.h"
@@ -267,15 +268,14 @@ void add_plot(CLI::App& program, Session& session) {
       });
   auto* file = command->add_option("--samples-file", a.samples, "Measured points for samples and residuals");
   command->add_option("--details", a.details, "Details of the sketch whose residuals are shown (default 64)")
-      ->check(CLI::NonNegativeNumber)
+      ->transform(whole_number(0))
       ->excludes(file);
   add_reading(*command, a.reading);
   command->add_option("--width", a.size.width, "Pixels (default: what suits the panels)")
-      ->check(CLI::Range(least_size, most_size));
-  command->add_option("--height", a.size.height, "Pixels")->check(CLI::Range(least_size, most_size));
+      ->transform(whole_number(least_size, most_size));
+  command->add_option("--height", a.size.height, "Pixels")->transform(whole_number(least_size, most_size));
   command->add_option("--title", a.title, "Words above the panels (default: the input's name)");
-  command->add_option("--format", a.format, "svg or png (default: as the name ends)")
-      ->check(CLI::IsMember({"svg", "png"}));
+  command->add_option("--format", a.format, "svg or png (default: as the name ends)")->check(one_of({"svg", "png"}));
   add_talk(*command, a.talk);
   command->footer(
       "Examples:\n"

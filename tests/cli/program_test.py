@@ -444,7 +444,7 @@ class Misuse(Program):
     def test_usage(self):
         source, target, model = self.file("in.csv", "x,y\n0,0\n1,1\n2,0\n"), self.file("m.ifsm"), self.model()
         fit = ("fit", source, "-o", target)
-        self.refused(2, "subcommand")
+        self.refused(2, "ifsm: a command is missing: fit, info, ")
         self.refused(2, "--nonsense", *fit, "--nonsense")
         self.refused(2, "--output", "fit", source)
         self.refused(2, ["--control-points", "or auto"], *fit, "--control-points", "99")
@@ -464,6 +464,58 @@ class Misuse(Program):
         self.refused(2, "cannot both", "eval", "-", "--at", "-", stdin="")
         self.refused(2, "--at", "eval", model, "--at", "0.5,x")
         self.assertFalse(target.exists())
+
+    def test_every_usage_fault_is_one_sentence_of_the_program(self):
+        points, model, target = self.file("in.csv", table(rough_ring(20))), self.model(), self.file("m.ifsm")
+        fit = ("fit", points, "-o", target)
+        whole = "is not a whole number from "
+        for words, *arguments in [
+                ("'foo' is none of the commands fit, info, ", "foo"),
+                ("'--nonsense' is none of the commands ", "--nonsense", "fit"),
+                ("fit needs curves", "fit"),
+                ("fit needs --output", "fit", points),
+                ("--output needs a value", "fit", points, "-o"),
+                ("--output is given more than once", *fit, "-o", target),
+                ("fit has no option --nonsense", *fit, "--nonsense"),
+                ("fit does not expect 'b'", *fit, "b", "c"),
+                ("--closed: 'maybe' is no value", *fit, "--closed=maybe"),
+                ("--levels and --details do not go together", "synth", model, "--details", 3, "--levels", 1),
+                ("--format: 'xml' is none of json, cbor", *fit, "--format", "xml"),
+                *((f"--budget: '{value}' {whole}1 to 9223372036854775807", *fit, "--budget", value)
+                  for value in ("-1", "0", "1e9", "0x10", "8.5", "99999999999999999999")),
+                (f"--samples: '0' {whole}1 to 2147483647", "synth", model, "--samples", 0),
+                (f"--maps: '9' {whole}2 to 8, or auto", *fit, "--maps", 9),
+                *((f"--threshold: '{value}' is not a number from 0 on", "synth", model, "--threshold", value)
+                  for value in ("nan", "inf", "-1", "1e999", "x")),
+                ("--condition: '0' is not a number above 0", "train", points, "-o", target, "--condition", 0),
+                ("--columns: '-q' is no column", *fit, "--columns", ",", "-q"),
+                ("--columns names 5 columns; a curve has 1 to 4.", *fit, "--columns", "2,1,2,1,2"),
+                ("--levels: the model has 7 levels; give a number from 0 to 7.", "synth", model, "--levels", 8),
+                ("--details: the model has ", "synth", model, "--details", 100000),
+                ("--control-points, --maps: A filter", *fit, "-q", "--control-points", 8, "--maps", 8),
+                ("--control-points, --maps: A filter", "train", *fit[1:], "-q", "--control-points", 8, "--maps", 8),
+                ("--filter: The filter \"koch\" has 3 control points", *fit, "--filter", "koch", "--maps", 2),
+                ("--at: 'abc' is no list of numbers", "eval", model, "--at", "abc"),
+                ("--at: '0.1,,0.2' is no list of numbers", "eval", model, "--at", "0.1,,0.2"),
+                ("--levels: A tree", "refine", model, "--levels", 40, "-o", target)]:
+            with self.subTest(arguments=arguments):
+                result = run(*arguments)
+                self.assertEqual((result.returncode, result.stdout), (2, ""), result.stderr)
+                self.assertTrue(result.stderr.startswith("ifsm: " + words), result.stderr)
+                self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+                self.assertNotIn("give 0", result.stderr)
+        self.assertFalse(target.exists())
+
+    def test_numbers_are_decimal(self):
+        self.assertEqual(len(numbers(self.fine("synth", self.model(), "--samples", "010"))), 10)
+
+    def test_points_where_a_model_is_wanted(self):
+        self.model()
+        for command in ("info", "measure", "synth"):
+            self.refused(3, ["ring.csv is a table of points, not a model; fit it first: ifsm fit "], command,
+                         self.file("ring.csv"))
+        self.refused(3, "islands.geojson is GeoJSON, not a model", "info", ISLANDS)
+        self.refused(3, "fit it first: ifsm fit - -o", "info", "-", stdin="1,2\n3,4\n")
 
     def test_tables_that_are_none(self):
         target = self.file("m.ifsm")
