@@ -26,6 +26,8 @@ std::string counted(std::size_t number, const std::string& noun) {
   return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
+std::string counted(const Json& number, const std::string& noun) { return counted(number.get<std::size_t>(), noun); }
+
 std::string printable(std::string_view text) {
   constexpr std::size_t most = 60;  // bytes
   std::string fit(text.substr(0, most));

@@ -16,6 +16,7 @@ std::string rounded(double value, int digits = 4);
 
 // "1 gap", "3 gaps".
 std::string counted(std::size_t number, const std::string& noun);
+std::string counted(const Json& number, const std::string& noun);
 
 // Not the first byte of a character of UTF-8.
 inline bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }

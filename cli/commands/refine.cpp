@@ -22,8 +22,9 @@ struct RefineArguments {
 };
 
 std::string in_words(const Json& report) {
-  return report["output"].get<std::string>() + ": " + report["levels"].dump() + " levels, " + report["places"].dump() +
-         " places, length " + rounded(report["length"]) + " (before: " + rounded(report["length_before"]) + ")\n";
+  return report["output"].get<std::string>() + ": " + counted(report["levels"], "level") + ", " +
+         report["places"].dump() + " places, length " + rounded(report["length"]) +
+         " (before: " + rounded(report["length_before"]) + ")\n";
 }
 
 ifsm::Model refined(const ifsm::Model& model, const ifsm::RefineOptions& options) {

@@ -94,9 +94,9 @@ Json report_of(const SynthArguments& arguments, const ifsm::Model& model, const 
 }
 
 std::string in_words(const Json& report) {
-  return report["output"].get<std::string>() + ": " + report["points"].dump() + " points; " +
-         report["details_kept"].dump() + " of " + report["details"].dump() + " details, RMS " + rounded(report["rms"]) +
-         " and at most " + rounded(report["max"]) + " from the model\n";
+  return report["output"].get<std::string>() + ": " + counted(report["points"], "point") + "; " +
+         report["details_kept"].dump() + " of " + counted(report["details"], "detail") + ", RMS " +
+         rounded(report["rms"]) + " and at most " + rounded(report["max"]) + " from the model\n";
 }
 
 constexpr double metres_in_a_kilometre = 1e3;

@@ -127,12 +127,13 @@ std::string in_words(const Json& report) {
   const auto number = [&](const char* key) { return std::to_string(report[key].get<std::int64_t>()); };
   std::string text = report["output"].get<std::string>() + ": n = " + number("control_points") +
                      ", N = " + number("maps") + ", condition " + rounded(report["condition"]) + "\n" +
-                     number("rounds") + " rounds, " + number("iterations") + " iterations (" +
+                     counted(report["rounds"], "round") + ", " + counted(report["iterations"], "iteration") + " (" +
                      report["reason"].get<std::string>() + ")\n" +
-                     "RMS of sketches, trained over start: " + rounded(report["ratio"]) + " on " + number("trained") +
-                     " curves, " + number("sketches") + " sketches";
+                     "RMS of sketches, trained over start: " + rounded(report["ratio"]) + " on " +
+                     counted(report["trained"], "curve") + ", " + number("sketches") +
+                     (report["sketches"] == 1 ? " sketch" : " sketches");
   if (report.contains("held_out_ratio"))
-    text += "; " + rounded(report["held_out_ratio"]) + " on " + number("held_out") + " curves held out";
+    text += "; " + rounded(report["held_out_ratio"]) + " on " + counted(report["held_out"], "curve") + " held out";
   return text + "\n";
 }
 

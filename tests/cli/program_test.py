@@ -176,6 +176,31 @@ class Reports(Program):
         self.assertEqual(sum(level["kept"] for level in info["energy_by_level"]), info["details_kept"])
         self.assertIn("condition", self.fine("info", self.model()))
 
+    def test_one_is_not_several(self):
+        source, model = self.file("in.csv", table([(0, 0), (1, 2), (3, 1), (4, 0)])), self.file("m.ifsm")
+        words = self.fine("fit", source, "--no-fit", "--maps", 2, "--control-points", 3, "-o", model)
+        self.assertIn("m.ifsm: 1 level, n = 3", words)
+        self.assertIn(": 1 point; ", self.fine("synth", model, "--samples", 1, "-o", self.file("out.csv")))
+
+    def test_numbers_have_any_size(self):
+        told = {}
+        for exponent in (0, 200, -200):
+            source, model = self.file("in.csv"), self.file("m.ifsm")
+            source.write_text("".join(f"{x!r}e{exponent},{y!r}e{exponent}\n" for x, y in
+                                      ((round(x, 4), round(y, 4)) for x, y in rough_ring(100))))
+            self.fine("fit", source, "--closed", "--no-fit", "-q", "-o", model)
+            sketch = json.loads(self.fine("synth", model, "--details", 20, "--json", "-o", self.file("out.csv")))
+            levels = json.loads(self.fine("info", model, "--json"))["energy_by_level"]
+            told[exponent] = [sketch["rms"], sketch["max"]] + [level["rms"] for level in levels]
+            words = self.fine("info", model)
+            self.assertNotIn("nan", words)
+            self.assertNotIn("inf ", words)
+            self.assertAlmostEqual(sum(float(line.split()[-2]) for line in words.splitlines() if line.endswith("%")), 100,
+                                   delta=1)
+        for exponent in (200, -200):
+            for one, other in zip(told[0], told[exponent]):
+                self.assertAlmostEqual(other / 10.0 ** exponent / one, 1, places=9)
+
     def test_quiet_is_quiet_and_a_pipe_has_no_bar(self):
         source = self.file("in.csv", table(rough_ring(100)))
         options = ("fit", source, "--closed", "--iterations", 3, "--rounds", 1, "-o", self.file("m.ifsm"))
