@@ -1,4 +1,4 @@
-"""The ifsm program from outside: python3 program_test.py PROGRAM"""
+"""The ifsm program and the demo beside it, from outside: python3 program_test.py PROGRAM"""
 import json
 import math
 import os
@@ -13,6 +13,8 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "ifsm"
+
+DEMO = os.path.join(os.path.dirname(PROGRAM), "ifsm-demo")
 
 
 def default_signals():
@@ -748,6 +750,34 @@ class Train(Program):
         self.refused(3, "no.json", "fit", self.file("0.csv"), "--filter", "no.json", "-o", self.file("m.ifsm"))
         self.refused(3, "a family has one dimension", "train", self.file("0.csv"), self.file("one.csv", "1\n2\n3\n"), "-o",
                      self.file("f.json"))
+
+
+class Demo(Program):
+    def demo(self, *arguments):
+        return subprocess.run([DEMO, *map(str, arguments)], capture_output=True, text=True)
+
+    def test_help_is_no_fault(self):
+        told = self.demo("--help")
+        self.assertEqual((told.returncode, told.stderr), (0, ""))
+        self.assertTrue(told.stdout.startswith("usage: ifsm-demo"))
+        wrong = self.demo("one")
+        self.assertEqual((wrong.returncode, wrong.stdout), (2, ""))
+
+    def test_a_small_curve_has_fewer_budgets(self):
+        source, out = self.file("small.csv", table([(x * 1e-4, y * 1e-4) for x, y in rough_ring(30)])), self.file("out")
+        told = self.demo(source, out)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        rows = [line.split() for line in (out / "errors.txt").read_text().splitlines() if len(line.split()) == 8]
+        self.assertEqual([row[0] for row in rows if row[0].isdigit()], ["8", "16", "32"])
+        self.assertTrue(all(float(row[2]) > 0 for row in rows if row[0] in ("8", "16")), rows)
+        self.assertEqual(len(list(out.iterdir())), 7)
+
+    def test_curves_that_cannot_be_shown_leave_no_folder(self):
+        for text, words in (("0,0\n1,1\n1,0\n", "too few"), ("1,2,3\n2,3,4\n5,6,1\n", "dimension 3")):
+            told = self.demo(self.file("in.csv", text), self.file("out"))
+            self.assertEqual(told.returncode, 3, told.stderr)
+            self.assertIn(words, told.stderr)
+            self.assertEqual(self.names(), ["in.csv"])
 
 
 class Signals(Program):
