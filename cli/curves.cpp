@@ -135,6 +135,12 @@ class Preparation {
   double worst_stretch_ = 1;
 };
 
+double square(double value) { return value * value; }
+
+// Numbers are divided by this power of two before they are squared: of 1e200 and 1e-200 there is no square. It changes
+// no bit of what has one.
+int exponent_of(double largest) { return largest > 0 && std::isfinite(largest) ? std::ilogb(largest) : 0; }
+
 Samples samples_of(GeoCurve curve, const Reading& reading) {
   if (reading.project && curve.dimension == 3)
     for (std::size_t i = 2; i < curve.points.size(); i += 3) curve.points[i] *= kilometres_in_a_metre;
@@ -154,6 +160,9 @@ Curves curves_of_geojson(std::string_view text, const std::string& source, const
 }
 
 Curves curves_of_table(std::string_view text, const std::string& source, const Reading& reading) {
+  if (reading.columns.size() > most_dimensions)
+    throw Failure(Exit::Usage,
+                  "--columns names " + std::to_string(reading.columns.size()) + " columns; a curve has 1 to 4.");
   auto table = parse_csv(text, source, {reading.columns, reading.gaps != Gaps::Refused, gap_advice});
   check_shape(table, source);
   Preparation preparation(source, reading);
@@ -171,16 +180,29 @@ Curves read_curves(const std::string& path, const Reading& reading) {
   return parse_curves(read_file(path), input_name(path), reading);
 }
 
+double root_of_squares(const std::vector<double>& values, double count) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  const int exponent = exponent_of(largest);
+  double sum = 0;
+  for (const double value : values) sum += square(std::scalbn(value, -exponent));
+  return std::scalbn(std::sqrt(sum / count), exponent);
+}
+
 Distance distance(const std::vector<double>& a, const std::vector<double>& b, int dimension) {
   const auto d = static_cast<std::size_t>(dimension);
+  double apart = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) apart = std::max(apart, std::abs(a[i] - b[i]));
+  const int exponent = exponent_of(apart);
   double sum = 0, largest = 0;
   for (std::size_t k = 0; k < a.size(); k += d) {
-    double square = 0;
-    for (std::size_t i = k; i < k + d; ++i) square += (a[i] - b[i]) * (a[i] - b[i]);
-    sum += square;
-    largest = std::max(largest, square);
+    double squares = 0;
+    for (std::size_t i = k; i < k + d; ++i) squares += square(std::scalbn(a[i] - b[i], -exponent));
+    sum += squares;
+    largest = std::max(largest, squares);
   }
-  return {std::sqrt(sum * dimension / static_cast<double>(a.size())), std::sqrt(largest)};
+  return {std::scalbn(std::sqrt(sum * dimension / static_cast<double>(a.size())), exponent),
+          std::scalbn(std::sqrt(largest), exponent)};
 }
 
 std::vector<std::string> coordinate_names(int dimension) {

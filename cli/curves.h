@@ -51,6 +51,9 @@ Curves read_curves(const std::string& path, const Reading& reading);
 // The same of text that was read from `source`.
 Curves parse_curves(std::string_view text, const std::string& source, const Reading& reading);
 
+// Root of the sum of squares over `count`, of numbers of any size.
+double root_of_squares(const std::vector<double>& values, double count);
+
 // How far two rows of points of the same length are apart, in their units.
 struct Distance {
   double rms = 0;

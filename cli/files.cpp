@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <set>
 #include <system_error>
 
+#include "destination.h"
 #include "failure.h"
 
 namespace cli {
@@ -85,13 +87,6 @@ bool is_special(const fs::path& path) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-// Where the bytes really go: a symbolic link stays one, and its target is replaced.
-fs::path destination(const std::string& path) {
-  std::error_code error;
-  const auto resolved = fs::weakly_canonical(path, error);
-  return error ? fs::path(path) : resolved;
-}
-
 // What a file made by open() would get, or what the file to be replaced has.
 mode_t mode_for(const fs::path& target) {
   struct stat existing;
@@ -101,8 +96,14 @@ mode_t mode_for(const fs::path& target) {
   return 0666 & ~mask;
 }
 
-std::mutex writing;                // held while `unfinished` changes
+std::mutex writing;                // held while what follows changes
 std::set<std::string> unfinished;  // new files that no rename has made whole yet
+Written written = Written::Nothing;
+
+void now_written(Written more) {
+  const std::lock_guard lock(writing);
+  written = std::max(written, more);
+}
 
 constexpr const char* in_the_way = "it is there already; remove it, choose another name, or add --overwrite";
 
@@ -120,7 +121,7 @@ class NewFile {
  public:
   explicit NewFile(std::string path)
       : path_(std::move(path)),
-        target_(destination(path_)),
+        target_(destination(path_).path),
         name_((folder_of(target_) / ".ifsm-XXXXXX").string()),
         descriptor_(create()) {
     if (!descriptor_.valid()) fail_output(path_, reason(errno));
@@ -164,6 +165,7 @@ class NewFile {
 
 void place(std::deque<NewFile>& files, Existing existing) {
   const std::lock_guard lock(writing);
+  written = Written::All;  // from here on nobody stops it
   auto next = files.begin();
   try {
     for (; next != files.end(); ++next) next->take_its_name(existing);
@@ -174,23 +176,44 @@ void place(std::deque<NewFile>& files, Existing existing) {
   }
 }
 
-bool is_written_to_directly(const std::string& path) { return path == "-" || is_special(path); }
+bool is_written_to_directly(const Destination& target) { return target.descriptor || is_special(target.path); }
 
-void write_directly(const std::string& path, std::string_view bytes) {
-  Descriptor file(path == "-" ? ::dup(STDOUT_FILENO) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+void write_directly(const std::string& path, const Destination& target, std::string_view bytes) {
+  now_written(Written::Part);
+  Descriptor file(target.descriptor ? ::dup(*target.descriptor) : ::open(target.path.c_str(), O_WRONLY | O_CLOEXEC));
   const int error = file.valid() ? write_all(file.number(), bytes) : errno;
   const int late = file.close();
   if (error != 0 || late != 0) fail_output(path, reason(error != 0 ? error : late));
 }
 
-void check_special(const std::string& path) {
-  if (::access(path.c_str(), W_OK) != 0) fail_output(path, reason(errno));
+// 0, or why nothing can be written to an open descriptor.
+int check_descriptor(int descriptor) {
+  const int flags = ::fcntl(descriptor, F_GETFL);
+  if (flags < 0) return errno;
+  return (flags & O_ACCMODE) == O_RDONLY ? EBADF : 0;
+}
+
+void check_folder(const std::string& path, const fs::path& folder) {
+  struct stat found;
+  if (::stat(folder.c_str(), &found) != 0) fail_output(path, folder.string() + ": " + reason(errno));
+  if (!S_ISDIR(found.st_mode)) fail_output(path, folder.string() + " is not a directory");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) fail_output(path, folder.string() + ": " + reason(errno));
 }
 
 }  // namespace
 
-std::string input_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+std::string input_name(const std::string& path) {
+  return path == "-" ? "standard input" : path.empty() ? "'' (an empty name)" : path;
+}
 std::string output_name(const std::string& path) { return path == "-" ? "standard output" : path; }
+
+bool goes_to_standard_output(const std::string& path) {
+  const auto descriptor = destination(path).descriptor;
+  struct stat target, standard;
+  return descriptor &&
+         (*descriptor == STDOUT_FILENO || (::fstat(*descriptor, &target) == 0 &&
+                                           ::fstat(STDOUT_FILENO, &standard) == 0 && same_file(target, standard)));
+}
 
 std::string read_file(const std::string& path) {
   if (path == "-") return read_all(STDIN_FILENO, path);
@@ -200,22 +223,45 @@ std::string read_file(const std::string& path) {
 }
 
 void check_writable(const std::string& path) {
-  if (path == "-") return;
-  if (is_special(path)) return check_special(path);
+  if (path.empty()) throw Failure(Exit::Usage, "-o '' names no file; give a name, or - for standard output.");
   const auto target = destination(path);
-  if (fs::is_directory(target)) fail_output(path, "it is a directory; name a file in it");
-  if (::access(folder_of(target).c_str(), W_OK | X_OK) != 0)
-    fail_output(path, folder_of(target).string() + ": " + reason(errno));
+  if (target.error != 0) fail_output(path, reason(target.error));
+  if (target.descriptor) {
+    if (const int error = check_descriptor(*target.descriptor); error != 0) fail_output(path, reason(error));
+  } else if (is_special(target.path)) {
+    if (::access(target.path.c_str(), W_OK) != 0) fail_output(path, reason(errno));
+  } else {
+    std::error_code ignored;
+    if (fs::is_directory(target.path, ignored)) fail_output(path, "it is a directory; name a file in it");
+    check_folder(path, folder_of(target.path));
+  }
 }
 
 void check_absent(const std::string& path, Existing existing) {
-  if (existing == Existing::Refused && !is_written_to_directly(path) && fs::exists(fs::symlink_status(path)))
+  struct stat found;
+  if (existing == Existing::Refused && !is_written_to_directly(destination(path)) && ::lstat(path.c_str(), &found) == 0)
     fail_output(path, in_the_way);
+}
+
+void check_not_read(const std::string& output, const std::vector<std::string>& inputs) {
+  const auto target = destination(output);
+  struct stat written_to, read_from;
+  if (target.descriptor || ::stat(target.path.c_str(), &written_to) != 0 || !S_ISREG(written_to.st_mode)) return;
+  for (const auto& input : inputs) {
+    const int failed = input == "-" ? ::fstat(STDIN_FILENO, &read_from) : ::stat(input.c_str(), &read_from);
+    if (failed == 0 && same_file(written_to, read_from))
+      throw Failure(Exit::Usage, "-o " + output + " is the file that is read" +
+                                     (input == output ? "" : " (" + input_name(input) + ")") +
+                                     ", and would be replaced; name another file.");
+  }
 }
 
 void write_file(const std::string& path, std::string_view bytes) {
   check_writable(path);
-  if (is_written_to_directly(path)) return write_directly(path, bytes);
+  if (const auto target = destination(path); is_written_to_directly(target)) {
+    write_directly(path, target, bytes);
+    return now_written(Written::All);
+  }
   std::deque<NewFile> one;
   one.emplace_back(path).fill(bytes);
   place(one, Existing::Replaced);
@@ -226,17 +272,22 @@ void write_files(const std::vector<File>& files, Existing existing) {
   for (const auto& [path, bytes] : files) {
     check_writable(path);
     check_absent(path, existing);
-    if (is_written_to_directly(path))
-      write_directly(path, bytes);
+    if (const auto target = destination(path); is_written_to_directly(target))
+      write_directly(path, target, bytes);
     else
       whole.emplace_back(path).fill(bytes);
   }
   place(whole, existing);
 }
 
-void abandon_writing() {
-  writing.lock();  // for ever: the process ends
-  for (const auto& name : unfinished) ::unlink(name.c_str());
+Written abandon_writing() {
+  writing.lock();
+  if (written == Written::All) {
+    writing.unlock();
+  } else {
+    for (const auto& name : unfinished) ::unlink(name.c_str());  // the lock stays for ever: the process ends
+  }
+  return written;
 }
 
 }  // namespace cli

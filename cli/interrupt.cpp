@@ -3,10 +3,21 @@
 #include <pthread.h>
 #include <unistd.h>
 
+#include <string>
+
 #include "failure.h"
 #include "files.h"
 
 namespace cli {
+namespace {
+
+[[noreturn]] void end(Exit code, const std::string& sentence) {
+  const auto line = "ifsm: " + sentence + "\n";
+  if (::write(STDERR_FILENO, line.data(), line.size()) < 0) _exit(static_cast<int>(code));  // said or not, it ends
+  _exit(static_cast<int>(code));
+}
+
+}  // namespace
 
 Interrupt::Interrupt() {
   sigemptyset(&signals_);
@@ -35,8 +46,14 @@ void Interrupt::watch() {
 
 void Interrupt::answer() {
   if (running_) return running_->request();
-  abandon_writing();
-  _exit(static_cast<int>(Exit::Cancelled));
+  switch (abandon_writing()) {
+    case Written::Nothing: end(Exit::Cancelled, cancelled);
+    case Written::Part: end(Exit::Cancelled, "cancelled; the output got a part only.");
+    case Written::All: break;
+  }
+  // What is left is to tell the report, unless nobody takes it.
+  if (late_) end(Exit::Output, "the result is written; its report may be cut off.");
+  late_ = true;
 }
 
 Interrupt::Cancellable::Cancellable(Interrupt& interrupt) : interrupt_(interrupt) {

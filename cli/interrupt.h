@@ -1,4 +1,5 @@
-// Ctrl-C and its kin: they cancel a computation through its token, and end everything else on the spot.
+// Ctrl-C and its kin: they cancel a computation through its token, and end everything else on the spot. Once the result
+// is written, the first one is too late and changes nothing; a second one ends a report that nobody reads.
 #pragma once
 
 #include <csignal>
@@ -41,6 +42,7 @@ class Interrupt {
   sigset_t signals_;
   std::mutex mutex_;
   const ifsm::Cancel* running_ = nullptr;  // the token of the computation under way
+  bool late_ = false;                      // a signal came when all was written
   bool ending_ = false;
   std::thread watcher_;
 };

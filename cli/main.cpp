@@ -1,10 +1,12 @@
 // ifsm: the program. What it computes, it asks of the library, through the C ABI alone.
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include <ifsm.hpp>
 
 #include "commands/command.h"
+#include "commands/usage.h"
 #include "failure.h"
 
 namespace {
@@ -16,7 +18,7 @@ constexpr const char* footer =
     "  2    usage: an option, a value, or a combination that does not go\n"
     "  3    input: a file that is missing, unreadable, or not what it should be\n"
     "  4    output: a file that cannot be written\n"
-    "  130  cancelled by Ctrl-C or a signal; nothing was written\n"
+    "  130  cancelled by Ctrl-C or a signal; no file was written\n"
     "\n"
     "Examples:\n"
     "  ifsm fit coast.csv --closed -o coast.ifsm\n"
@@ -43,11 +45,13 @@ int run(int argc, char** argv) {
   for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_plot, cli::add_measure,
                          cli::add_nearest, cli::add_refine, cli::add_train})
     add(program, session);
+  cli::check_command(program, argc, argv);
   try {
     program.parse(argc, argv);
     return static_cast<int>(cli::Exit::Fine);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? 0 : static_cast<int>(cli::Exit::Usage);
+    if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
+    return fail(cli::Exit::Usage, cli::sentence_of(program, error).c_str());
   }
 }
 
@@ -63,6 +67,8 @@ int main(int argc, char** argv) {
   } catch (const ifsm::Error& error) {
     // What the commands let through unchecked are numbers that the library found out of its range.
     return fail(error.status == IFSM_ERROR_RANGE ? cli::Exit::Usage : cli::Exit::Computing, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(cli::Exit::Computing, "there is not enough memory for this; ask for less, e.g. fewer points.");
   } catch (const std::exception& error) {
     return fail(cli::Exit::Computing, error.what());
   }

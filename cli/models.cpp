@@ -1,10 +1,34 @@
 #include "models.h"
 
+#include "csv.h"
 #include "failure.h"
 #include "files.h"
 #include "geojson.h"
 
 namespace cli {
+namespace {
+
+template <class Parse>
+bool succeeds(const Parse& parse) {
+  try {
+    parse();
+    return true;
+  } catch (const Failure&) {
+    return false;
+  }
+}
+
+// Points where a model is wanted are a step left out, not a broken file.
+void refuse_points(std::string_view bytes, const std::string& source) {
+  const auto refuse = [&](const char* kind) {
+    throw Failure(Exit::Input, source + " is " + kind + ", not a model; fit it first: ifsm fit " +
+                                   (source == input_name("-") ? "-" : source) + " -o model.ifsm.");
+  };
+  if (succeeds([&] { parse_csv(bytes, source, {{}, true}); })) refuse("a table of points");
+  if (looks_like_json(bytes) && succeeds([&] { parse_geojson(bytes, source, false); })) refuse("GeoJSON");
+}
+
+}  // namespace
 
 ifsm::Model load_model(const std::string& path) { return parse_model(read_file(path), input_name(path)); }
 
@@ -13,6 +37,7 @@ ifsm::Model parse_model(std::string_view bytes, const std::string& source) {
   try {
     return ifsm::Model::load({bytes.begin(), bytes.end()});
   } catch (const ifsm::Error& error) {
+    refuse_points(bytes, source);
     const bool its_fault = error.status != IFSM_ERROR_MEMORY && error.status != IFSM_ERROR_INTERNAL;
     throw Failure(its_fault ? Exit::Input : Exit::Computing, source + ": " + error.what());
   }
@@ -42,6 +67,14 @@ ifsm::Filter filter_of_file(const std::string& path, int control_points, int map
   return filter;
 }
 
+// A 0 that the library asks for is an option that is left out.
+std::string in_options(std::string advice) {
+  constexpr std::string_view zero = "give 0 for its own numbers";
+  if (const auto at = advice.find(zero); at != advice.npos)
+    advice.replace(at, zero.size(), "leave --control-points and --maps out for its own numbers");
+  return advice;
+}
+
 // As a fit starts: coast where it has that shape.
 ifsm::Filter default_filter(int control_points, int maps) {
   try {
@@ -63,8 +96,15 @@ ifsm::Filter start_filter(const std::string& name, int control_points, int maps)
   try {
     return ifsm::Filter::named(name, ifsm::Topology::square, control_points, maps);
   } catch (const ifsm::Error& error) {
-    throw Failure(Exit::Usage, std::string("--filter: ") + error.what());
+    throw Failure(Exit::Usage, "--filter: " + in_options(error.what()));
   }
+}
+
+std::string file_of_filter(const std::string& filter) { return is_path(filter) ? filter : std::string(); }
+
+void refuse_shape(const ifsm::Error& error) {
+  if (error.status == IFSM_ERROR_LIMIT && error.argument == "start")
+    throw Failure(Exit::Usage, std::string("--control-points, --maps: ") + error.what());
 }
 
 void require_joined(const ifsm::Filter& filter, const std::string& name) {

@@ -20,7 +20,11 @@ bool looks_like_model(std::string_view bytes);
 // What `--filter` names. A name: joined where it has that form, else square. A path (with a point or a slash in it):
 // the filter of that model. Empty: where a fit starts that is told nothing. 0 chooses the filter's own numbers. Throws
 // Failure{Usage, Input}.
-ifsm::Filter start_filter(const std::string& filter, int control_points, int maps);
+ifsm::Filter start_filter(const std::string& name, int control_points, int maps);
+// The file that such a filter is read from; empty when it is a name.
+std::string file_of_filter(const std::string& filter);
+// Of what a fit or a training refused: a filter with too many entries. Throws Failure{Usage}, or nothing.
+void refuse_shape(const ifsm::Error& error);
 void require_joined(const ifsm::Filter& filter, const std::string& name);
 
 }  // namespace cli

@@ -26,6 +26,8 @@ std::string counted(std::size_t number, const std::string& noun) {
   return std::to_string(number) + " " + noun + (number == 1 ? "" : "s");
 }
 
+std::string counted(const Json& number, const std::string& noun) { return counted(number.get<std::size_t>(), noun); }
+
 std::string printable(std::string_view text) {
   constexpr std::size_t most = 60;  // bytes
   std::string fit(text.substr(0, most));
@@ -36,6 +38,10 @@ std::string printable(std::string_view text) {
   std::replace_if(
       fit.begin(), fit.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7F'; }, '?');
   return fit;
+}
+
+std::string valid_utf8(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
 }
 
 std::string aligned(const std::vector<std::string>& headings, const std::vector<std::vector<std::string>>& rows,

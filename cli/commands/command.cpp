@@ -1,4 +1,5 @@
 #include "commands/command.h"
+#include "commands/values.h"
 
 #include <unistd.h>
 #include <cmath>
@@ -28,7 +29,8 @@ void add_reading(CLI::App& command, Reading& reading) {
   static const std::map<std::string, Gaps> ways{{"split", Gaps::Split}, {"bridge", Gaps::Bridged}};
   command.add_option("--columns", reading.columns, "Columns to read, by header or number from 1, e.g. x,y")
       ->delimiter(',')
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->check(column_name());
   command.add_flag("--closed", reading.closed, "The curve is a ring: the last point joins the first");
   command
       .add_option_function<std::string>(
@@ -90,7 +92,7 @@ void PointsOutput::write(Table table) const {
 
 void tell_report(const Talk& talk, const std::string& output, const std::function<Json()>& report,
                  std::string (*in_words)(const Json&)) {
-  if (output == "-" || (talk.quiet && !talk.json)) return;
+  if (goes_to_standard_output(output) || (talk.quiet && !talk.json)) return;
   const auto told = report();
   print(talk.json ? text_of(told) : in_words(told));
 }
@@ -100,14 +102,18 @@ ifsm::Format format_of(const std::string& output, const std::string& format) {
   return ends_with(output, ".json") ? ifsm::Format::json : ifsm::Format::cbor;
 }
 
-void check_model_output(const std::string& output, const std::string& format) {
-  if (output == "-" && format_of(output, format) == ifsm::Format::cbor && isatty(STDOUT_FILENO))
+void refuse_binary_on_terminal(const std::string& output, ifsm::Format format) {
+  if (format == ifsm::Format::cbor && isatty(STDOUT_FILENO) && goes_to_standard_output(output))
     throw Failure(Exit::Usage, "CBOR is not for a terminal; add --format json, or name a file with -o.");
+}
+
+void check_model_output(const std::string& output, const std::string& format) {
+  refuse_binary_on_terminal(output, format_of(output, format));
   check_writable(output);
 }
 
 void refuse_json_beside_result(const Talk& talk, const std::string& output) {
-  if (talk.json && output == "-")
+  if (talk.json && goes_to_standard_output(output))
     throw Failure(Exit::Usage, "--json and the result both want standard output; name a file with -o.");
 }
 

@@ -61,6 +61,7 @@ void tell_report(const Talk& talk, const std::string& output, const std::functio
                  std::string (*in_words)(const Json&));
 // How a model is written: as --format says, else by the file's name. What cannot be written is refused beforehand.
 ifsm::Format format_of(const std::string& output, const std::string& format);
+void refuse_binary_on_terminal(const std::string& output, ifsm::Format format);
 void check_model_output(const std::string& output, const std::string& format);
 
 // The report goes to standard output; it cannot when the result does.

@@ -36,8 +36,8 @@ std::vector<double> column(const std::string& text, const std::string& source) {
 std::vector<double> typed(const std::string& text) {
   try {
     return parse_csv(text, "--at").values;
-  } catch (const Failure& failure) {
-    throw Failure(Exit::Usage, failure.what());
+  } catch (const Failure&) {
+    throw Failure(Exit::Usage, "--at: '" + text + "' is no list of numbers, such as 0.25,0.5.");
   }
 }
 
@@ -84,6 +84,7 @@ void run(const EvalArguments& arguments) {
   const bool both = arguments.model == "-" && (arguments.at == "-" || arguments.file == "-");
   if (both) throw Failure(Exit::Usage, "the model and the parameters cannot both come from standard input.");
   check_writable(arguments.output.path);
+  check_not_read(arguments.output.path, {arguments.model, arguments.at == "-" ? "-" : arguments.file});
   const auto model = load_model(arguments.model);
   const auto parameters = parameters_of(arguments);
   const auto info = model.describe();

@@ -1,14 +1,14 @@
 // ifsm fit: samples in, models out.
-#include <unistd.h>
-
 #include <filesystem>
 #include <memory>
 
 #include "commands/command.h"
 #include "commands/fit_report.h"
 #include "commands/fitting.h"
+#include "commands/values.h"
 #include "failure.h"
 #include "files.h"
+#include "models.h"
 #include "targets.h"
 
 namespace cli {
@@ -23,17 +23,6 @@ struct FitArguments {
   std::string format;
   Talk talk;
 };
-
-CLI::Validator number_or_auto(int low, int high) {
-  const auto range = std::to_string(low) + " to " + std::to_string(high) + ", or auto";
-  return CLI::Validator(
-      [=](std::string& text) {
-        int value = 0;
-        const bool fine = text == "auto" || (CLI::detail::lexical_cast(text, value) && value >= low && value <= high);
-        return fine ? std::string() : "'" + text + "' is not " + range;
-      },
-      range);
-}
 
 ifsm::Format format_of(const FitArguments& arguments) { return cli::format_of(arguments.output, arguments.format); }
 
@@ -53,8 +42,7 @@ void check_arguments(const FitArguments& arguments) {
   if (settings.levels && settings.stage != "filter")
     throw Failure(Exit::Usage, "--levels is for --stage filter: the levels whose details its filter is to tell well.");
   refuse_json_beside_result(arguments.talk, arguments.output);
-  if (arguments.output == "-" && format_of(arguments) == ifsm::Format::cbor && isatty(STDOUT_FILENO))
-    throw Failure(Exit::Usage, "CBOR is not for a terminal; add --format json, or name a file with -o.");
+  refuse_binary_on_terminal(arguments.output, format_of(arguments));
 }
 
 Targets targets_of(const FitArguments& arguments, const std::vector<Samples>& curves) {
@@ -69,8 +57,10 @@ Existing existing_of(const FitArguments& arguments, const Targets& targets) {
 }
 
 void check_targets(const FitArguments& arguments, const Targets& targets) {
+  const auto filter = file_of_filter(arguments.settings.filter);
   for (const auto& path : targets.paths) {
     check_writable(path);
+    check_not_read(path, {arguments.input, filter});
     check_absent(path, existing_of(arguments, targets));
   }
 }
@@ -119,33 +109,33 @@ void add_settings(CLI::App& command, FitSettings& settings) {
                                  "(default 128)")
                      ->delimiter(',')
                      ->allow_extra_args(false)
-                     ->check(CLI::PositiveNumber);
+                     ->transform(whole_number(1));
   command.add_option("--control-points", settings.control_points, "Points of a control polygon, n (default 5)")
-      ->check(number_or_auto(1, 16));
+      ->transform(whole_number_or_auto(1, 16));
   command.add_option("--maps", settings.maps, "Pieces that a polygon is cut into, N (default 2)")
-      ->check(number_or_auto(2, 8));
+      ->transform(whole_number_or_auto(2, 8));
   command.add_option("--filter", settings.filter,
                      "Where to start (default casteljau); an unknown name lists the known ones");
   auto* iterations = command.add_option("--iterations", settings.iterations, "At most so many a round (default 40)")
-                         ->check(CLI::Range(1, 1000));
+                         ->transform(whole_number(1, 1000));
   auto* rounds =
       command.add_option("--rounds", settings.rounds, "How often the scale of sparsity is estimated (default 2)")
-          ->check(CLI::Range(1, 100));
+          ->transform(whole_number(1, 100));
   auto* polish =
       command.add_option("--polish", settings.polish, "Rounds on the sketches' own error (default 8); 0 for none")
-          ->check(CLI::Range(0, 100));
+          ->transform(whole_number(0, 100));
   command
       .add_option("--threads", settings.threads, "Threads to use (default: one a core); results do not depend on it")
-      ->check(CLI::Range(1, 1024));
+      ->transform(whole_number(1, 1024));
   auto* stage = command
                     .add_option("--stage", settings.stage,
                                 "What to fit: sparse, the whole filter, so that few details tell the curve (default); "
                                 "curve, control points and T alone; filter, U alone")
-                    ->check(CLI::IsMember({"sparse", "curve", "filter"}));
+                    ->check(one_of({"sparse", "curve", "filter"}));
   auto* levels = command
                      .add_option("--levels", settings.levels,
                                  "Stage filter: levels whose details are to tell the curve (default 3); 0 for none")
-                     ->check(CLI::Range(0, 40));
+                     ->transform(whole_number(0, 40));
   command.add_flag("--no-fit", settings.no_fit, "The exact model under the filter as it is")
       ->excludes(budget)
       ->excludes(iterations)
@@ -174,7 +164,7 @@ void add_fit(CLI::App& program, Session& session) {
   add_reading(*command, a.reading);
   add_settings(*command, a.settings);
   command->add_option("--format", a.format, "json or cbor (default: json when the name ends in .json, else cbor)")
-      ->check(CLI::IsMember({"json", "cbor"}));
+      ->check(one_of({"json", "cbor"}));
   add_talk(*command, a.talk);
   command->footer(
       "Examples:\n"

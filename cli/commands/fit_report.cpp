@@ -42,7 +42,7 @@ std::string words_of_fit(const Json& fit) {
   for (const auto& row : fit["budgets"])
     rows.push_back({number(row["budget"]), number(row["details"]), rounded(row["start_rms"]), rounded(row["rms"]),
                     rounded(row["start_max"]), rounded(row["max"])});
-  return number(fit["iterations"]) + " iterations (" + fit["reason"].get<std::string>() + "), condition of R " +
+  return counted(fit["iterations"], "iteration") + " (" + fit["reason"].get<std::string>() + "), condition of R " +
          rounded(fit["start_condition"]) + " -> " + rounded(fit["final_condition"]) + "\n\n" +
          aligned({"budget", "details", "start RMS", "fitted RMS", "start max", "fitted max"}, rows);
 }
@@ -57,11 +57,11 @@ std::string words_of_plane(const Json& report) {
 }
 
 std::string words_of_one(const Json& report) {
-  const std::string text = report["input"].get<std::string>() + ": " + number(report["samples"]) +
-                           " samples, dimension " + number(report["dimension"]) +
+  const std::string text = report["input"].get<std::string>() + ": " + counted(report["samples"], "sample") +
+                           ", dimension " + number(report["dimension"]) +
                            (report["closed"] ? ", closed\n" : ", open\n") + report["output"].get<std::string>() + ": " +
-                           number(report["levels"]) + " levels, n = " + number(report["control_points"]) +
-                           ", N = " + number(report["maps"]) + ", " + number(report["bytes"]) + " bytes of " +
+                           counted(report["levels"], "level") + ", n = " + number(report["control_points"]) +
+                           ", N = " + number(report["maps"]) + ", " + counted(report["bytes"], "byte") + " of " +
                            report["format"].get<std::string>() + "\n" + words_of_plane(report);
   return report.contains("fit") ? text + words_of_fit(report["fit"]) : text;
 }

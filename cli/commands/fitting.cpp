@@ -64,6 +64,7 @@ auto naming(const std::string& curve, const Work& work) {
   } catch (const ifsm::Cancelled&) {
     throw;
   } catch (const ifsm::Error& error) {
+    refuse_shape(error);
     if (curve.empty()) throw;
     throw Failure(error.status == IFSM_ERROR_RANGE ? Exit::Usage : Exit::Computing, curve + ": " + error.what());
   }

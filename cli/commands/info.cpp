@@ -1,9 +1,9 @@
 // ifsm info: what a model holds.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "commands/command.h"
+#include "curves.h"
 #include "files.h"
 #include "models.h"
 
@@ -19,12 +19,15 @@ struct LevelSummary {
   std::int64_t details = 0;
   std::int64_t kept = 0;
   double energy = 0;   // the sum of squared significances
+  double rms = 0;      // over all places
   double largest = 0;  // significance
 };
 
-LevelSummary summary(const ifsm::Model& model, int level) {
+LevelSummary summary(const ifsm::Model& model, int level, std::int64_t places) {
   LevelSummary sum;
-  for (const double value : model.significance(level)) {
+  const auto values = model.significance(level);
+  sum.rms = root_of_squares(values, static_cast<double>(places));
+  for (const double value : values) {
     ++sum.details;
     sum.kept += value != 0;
     sum.energy += value * value;
@@ -42,12 +45,12 @@ Json report_of(const std::string& name, const ifsm::Model& model) {
   const auto filter = model.filter().describe();
   Json levels = Json::array();
   for (int level = 0; level < info.levels; ++level) {
-    const auto sum = summary(model, level);
+    const auto sum = summary(model, level, info.places);
     levels.push_back({{"level", level},
                       {"details", sum.details},
                       {"kept", sum.kept},
                       {"energy", sum.energy},
-                      {"rms", std::sqrt(sum.energy / static_cast<double>(info.places))},
+                      {"rms", sum.rms},
                       {"largest", sum.largest}});
   }
   return {{"model", name},
@@ -75,11 +78,13 @@ std::string line(const std::string& name, const std::string& value) {
 std::string in_words(const Json& report) {
   const auto text = [](const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); };
   const auto number = [](const Json& value) { return rounded(value.get<double>()); };
-  double energy = 0;
-  for (const auto& level : report["energy_by_level"]) energy += level["energy"].get<double>();
+  // Shares of energy by RMS, which all have: energies of 1e200 and 1e-200 are no numbers.
+  std::vector<double> effects;
+  for (const auto& level : report["energy_by_level"]) effects.push_back(level["rms"].get<double>());
+  const double whole = root_of_squares(effects, 1);
   std::vector<std::vector<std::string>> rows;
   for (const auto& level : report["energy_by_level"]) {
-    const double share = energy > 0 ? level["energy"].get<double>() / energy * 100 : 0;
+    const double part = whole > 0 ? level["rms"].get<double>() / whole : 0, share = part * part * 100;
     rows.push_back({text(level["level"]), text(level["details"]), text(level["kept"]), number(level["rms"]),
                     number(level["largest"]), rounded(share, 3) + " %"});
   }

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "commands/command.h"
+#include "commands/values.h"
 #include "curves.h"
 #include "failure.h"
 #include "files.h"
@@ -21,6 +22,7 @@ void run(const NearestArguments& arguments) {
   if (arguments.model == "-" && arguments.queries == "-")
     throw Failure(Exit::Usage, "the model and the points cannot both come from standard input.");
   check_writable(arguments.output.path);
+  check_not_read(arguments.output.path, {arguments.model, arguments.queries});
   const auto model = load_model(arguments.model);
   const auto source = input_name(arguments.queries);
   const auto queries = parse_csv(read_file(arguments.queries), source, {arguments.columns});
@@ -47,7 +49,9 @@ void add_nearest(CLI::App& program, Session&) {
   command->add_option("model", a.model, "A model written by ifsm fit; - is standard input")->required();
   command->add_option("points", a.queries, "A table of points; - is standard input")->required();
   command->add_option("--columns", a.columns, "Columns to read, by header or by number from 1, e.g. x,y")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(column_name());
   add_points_output(*command, a.output);
   command->footer(
       "A line for each point: its parameter on the curve, its distance, and the curve's point there.\n\n"

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "commands/command.h"
+#include "commands/values.h"
 #include "failure.h"
 #include "figures/page.h"
 #include "figures/panels.h"
@@ -122,6 +123,7 @@ void check_arguments(const PlotArguments& arguments) {
   if (arguments.input == "-" && arguments.samples == "-")
     throw Failure(Exit::Usage, "the model and its samples cannot both come from standard input.");
   check_writable(arguments.output);
+  check_not_read(arguments.output, {arguments.input, arguments.samples});
 }
 
 void check_one_dimension(const std::vector<Samples>& curves, const std::string& name) {
@@ -234,7 +236,8 @@ void run(const PlotArguments& arguments, Session& session) {
   const auto subject = read_subject(arguments);
   check_one_dimension(subject.curves, subject.name);
   auto page = drawn(arguments, subject, session);
-  const auto figure = figures::page_of(std::move(page.panels), title_of(arguments), note_of(subject), arguments.size);
+  const auto figure =
+      figures::page_of(std::move(page.panels), valid_utf8(title_of(arguments)), note_of(subject), arguments.size);
   const auto format = format_of(arguments);
   const auto bytes = figure.bytes(format);
   write_file(arguments.output, bytes);
@@ -265,15 +268,14 @@ void add_plot(CLI::App& program, Session& session) {
       });
   auto* file = command->add_option("--samples-file", a.samples, "Measured points for samples and residuals");
   command->add_option("--details", a.details, "Details of the sketch whose residuals are shown (default 64)")
-      ->check(CLI::NonNegativeNumber)
+      ->transform(whole_number(0))
       ->excludes(file);
   add_reading(*command, a.reading);
   command->add_option("--width", a.size.width, "Pixels (default: what suits the panels)")
-      ->check(CLI::Range(least_size, most_size));
-  command->add_option("--height", a.size.height, "Pixels")->check(CLI::Range(least_size, most_size));
+      ->transform(whole_number(least_size, most_size));
+  command->add_option("--height", a.size.height, "Pixels")->transform(whole_number(least_size, most_size));
   command->add_option("--title", a.title, "Words above the panels (default: the input's name)");
-  command->add_option("--format", a.format, "svg or png (default: as the name ends)")
-      ->check(CLI::IsMember({"svg", "png"}));
+  command->add_option("--format", a.format, "svg or png (default: as the name ends)")->check(one_of({"svg", "png"}));
   add_talk(*command, a.talk);
   command->footer(
       "Examples:\n"

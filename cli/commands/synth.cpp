@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "commands/command.h"
+#include "commands/values.h"
 #include "curves.h"
 #include "failure.h"
 #include "files.h"
@@ -13,6 +14,8 @@
 
 namespace cli {
 namespace {
+
+constexpr int most_levels = std::numeric_limits<std::int32_t>::max();  // what a model has is known later
 
 struct SynthArguments {
   std::string model;
@@ -43,7 +46,17 @@ ifsm::Resolve resolve_of(const SynthArguments& arguments) {
   return arguments.resolve == "choice" ? ifsm::Resolve::choice : ifsm::Resolve::values;
 }
 
+void check_at_most(const char* option, std::int64_t asked, std::int64_t most, const char* of_what) {
+  if (asked > most)
+    throw Failure(Exit::Usage, std::string(option) + ": the model has " +
+                                   counted(static_cast<std::size_t>(most), of_what) + "; give a number from 0 to " +
+                                   std::to_string(most) + ".");
+}
+
 ifsm::Model sketch_of(const ifsm::Model& model, const SynthArguments& arguments, Session& session) {
+  const auto info = model.describe();
+  if (arguments.keep_levels) check_at_most("--levels", *arguments.keep_levels, info.levels, "level");
+  if (arguments.keep_details) check_at_most("--details", *arguments.keep_details, info.details, "detail");
   const Interrupt::Cancellable job(session.interrupt);
   auto sketch = model.keep(rule_of(arguments).resolved(resolve_of(arguments)).cancelled_by(job.token()));
   job.confirm();
@@ -81,9 +94,9 @@ Json report_of(const SynthArguments& arguments, const ifsm::Model& model, const 
 }
 
 std::string in_words(const Json& report) {
-  return report["output"].get<std::string>() + ": " + report["points"].dump() + " points; " +
-         report["details_kept"].dump() + " of " + report["details"].dump() + " details, RMS " + rounded(report["rms"]) +
-         " and at most " + rounded(report["max"]) + " from the model\n";
+  return report["output"].get<std::string>() + ": " + counted(report["points"], "point") + "; " +
+         report["details_kept"].dump() + " of " + counted(report["details"], "detail") + ", RMS " +
+         rounded(report["rms"]) + " and at most " + rounded(report["max"]) + " from the model\n";
 }
 
 constexpr double metres_in_a_kilometre = 1e3;
@@ -95,6 +108,7 @@ void check_arguments(const SynthArguments& arguments) {
   if (!arguments.resolve.empty() && keeps_all(arguments))
     throw Failure(Exit::Usage, "--resolve solves anew what is kept; add --levels, --details or --threshold.");
   check_writable(arguments.output.path);
+  check_not_read(arguments.output.path, {arguments.model});
 }
 
 void check_position(int dimension) {
@@ -146,23 +160,23 @@ void add_synth(CLI::App& program, Session& session) {
   command->add_option("--unproject", a.unproject,
                       "Turn kilometres back into degrees about LON,LAT, the middle that ifsm fit --project told");
   auto* levels = command->add_option("--levels", a.keep_levels, "Keep the details of the first so many levels only")
-                     ->check(CLI::NonNegativeNumber);
+                     ->transform(whole_number(0, most_levels));
   auto* details = command->add_option("--details", a.keep_details, "Keep so many details, the most significant ones")
-                      ->check(CLI::NonNegativeNumber)
+                      ->transform(whole_number(0))
                       ->excludes(levels);
   command->add_option("--threshold", a.threshold, "Keep the details whose significance is above this")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_from_zero())
       ->excludes(levels)
       ->excludes(details);
   command
       ->add_flag("--resolve{choice}", a.resolve,
                  "Solve the kept details and control points anew, by least squares, and better which details are kept; "
                  "--resolve=values leaves the choice as it is")
-      ->check(CLI::IsMember({"values", "choice"}));
+      ->check(one_of({"values", "choice"}));
   auto* count = command->add_option("--samples", a.count, "So many points, equally spaced in parameter")
-                    ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int32_t>::max() + std::int64_t{0}));
+                    ->transform(whole_number(1, std::numeric_limits<std::int32_t>::max()));
   command->add_option("--level", a.level, "The points of a level; 0 is the control polygon")
-      ->check(CLI::NonNegativeNumber)
+      ->transform(whole_number(0, most_levels))
       ->excludes(count);
   add_talk(*command, a.talk);
   command->footer(

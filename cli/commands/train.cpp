@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "commands/command.h"
+#include "commands/values.h"
 #include "curves.h"
 #include "failure.h"
 #include "files.h"
@@ -77,9 +78,14 @@ ifsm::Trained trained(const TrainArguments& arguments, const Curves& family, Ses
     progress.update(fraction, stage);
     return false;
   };
-  auto result = ifsm::train(curves_of(family), options);
-  job.confirm();
-  return result;
+  try {
+    auto result = ifsm::train(curves_of(family), options);
+    job.confirm();
+    return result;
+  } catch (const ifsm::Error& error) {
+    refuse_shape(error);
+    throw;
+  }
 }
 
 // A filter travels in a model that holds nothing else: a straight control polygon, no details.
@@ -121,18 +127,22 @@ std::string in_words(const Json& report) {
   const auto number = [&](const char* key) { return std::to_string(report[key].get<std::int64_t>()); };
   std::string text = report["output"].get<std::string>() + ": n = " + number("control_points") +
                      ", N = " + number("maps") + ", condition " + rounded(report["condition"]) + "\n" +
-                     number("rounds") + " rounds, " + number("iterations") + " iterations (" +
+                     counted(report["rounds"], "round") + ", " + counted(report["iterations"], "iteration") + " (" +
                      report["reason"].get<std::string>() + ")\n" +
-                     "RMS of sketches, trained over start: " + rounded(report["ratio"]) + " on " + number("trained") +
-                     " curves, " + number("sketches") + " sketches";
+                     "RMS of sketches, trained over start: " + rounded(report["ratio"]) + " on " +
+                     counted(report["trained"], "curve") + ", " + number("sketches") +
+                     (report["sketches"] == 1 ? " sketch" : " sketches");
   if (report.contains("held_out_ratio"))
-    text += "; " + rounded(report["held_out_ratio"]) + " on " + number("held_out") + " curves held out";
+    text += "; " + rounded(report["held_out_ratio"]) + " on " + counted(report["held_out"], "curve") + " held out";
   return text + "\n";
 }
 
 void run(const TrainArguments& arguments, Session& session) {
   refuse_json_beside_result(arguments.talk, arguments.output);
   check_writable(arguments.output);
+  auto read = arguments.inputs;
+  read.push_back(file_of_filter(arguments.filter));
+  check_not_read(arguments.output, read);
   const Curves family = read_family(arguments);
   tell_notes(family.notes, arguments.talk);
   const auto result = trained(arguments, family, session);
@@ -157,19 +167,21 @@ void add_train(CLI::App& program, Session& session) {
                    "eighth of a curve's samples)")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::PositiveNumber);
+      ->transform(whole_number(1));
   command->add_option("--control-points", a.control_points, "Points of a control polygon, n (default 5)")
-      ->check(CLI::Range(2, 16));
-  command->add_option("--maps", a.maps, "Pieces that a polygon is cut into, N (default 2)")->check(CLI::Range(2, 8));
+      ->transform(whole_number(2, 16));
+  command->add_option("--maps", a.maps, "Pieces that a polygon is cut into, N (default 2)")
+      ->transform(whole_number(2, 8));
   command->add_option("--filter", a.filter, "Where to start: a name (default casteljau), or a file with a filter");
   command->add_option("--hold-out", a.hold_out, "Do not train on every so-manyth curve, judge by it (default none)")
-      ->check(CLI::Range(2, 1 << 30));
-  command->add_option("--rounds", a.rounds, "At most so many (default 12)")->check(CLI::Range(1, 1000));
-  command->add_option("--iterations", a.iterations, "At most so many a round (default 10)")->check(CLI::Range(1, 1000));
+      ->transform(whole_number(2, 1 << 30));
+  command->add_option("--rounds", a.rounds, "At most so many (default 12)")->transform(whole_number(1, 1000));
+  command->add_option("--iterations", a.iterations, "At most so many a round (default 10)")
+      ->transform(whole_number(1, 1000));
   command->add_option("--condition", a.condition, "Condition number of R, at most (default 30)")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above_zero());
   command->add_option("--threads", a.threads, "Threads to use (default: one a core); results do not depend on it")
-      ->check(CLI::Range(1, 1024));
+      ->transform(whole_number(1, 1024));
   add_talk(*command, a.talk);
   command->footer(
       "Examples:\n"

@@ -1,6 +1,8 @@
 // ifsm-demo: a coast taken apart, told by few details, and drawn.
 #include <cstdio>
 #include <filesystem>
+#include <string>
+#include <utility>
 
 #include "demo/pictures.h"
 #include "demo/study.h"
@@ -22,9 +24,9 @@ fs::path made(const fs::path& folder) {
   return folder;
 }
 
-demo::Study studied(const std::string& path) {
+demo::Study studied(demo::Plan plan) {
   cli::Progress progress("fit", cli::Progress::style_of_terminal(false));
-  return demo::study(path, [&](double fraction, const std::string& stage) {
+  return demo::study(std::move(plan), [&](double fraction, const std::string& stage) {
     progress.update(fraction, stage);
     return false;
   });
@@ -36,8 +38,9 @@ void write(const fs::path& path, const std::string& bytes) {
 }
 
 void run(const std::string& input, const fs::path& folder) {
+  auto plan = demo::plan(input);
   made(folder);
-  const auto study = studied(input);
+  const auto study = studied(std::move(plan));
   const auto table = demo::table_of(study);
   std::printf("%s\n", table.c_str());
   write(folder / "errors.txt", table);
@@ -50,19 +53,25 @@ void run(const std::string& input, const fs::path& folder) {
   write(folder / "05-errors.png", demo::errors_picture(study));
 }
 
-int usage() {
+void usage(std::FILE* out) {
   std::fputs(
       "usage: ifsm-demo COAST.csv FOLDER\n"
       "Fits the closed curve in COAST.csv (two columns, in km) and writes a model, a table of errors and five\n"
       "pictures into FOLDER.\n",
-      stderr);
-  return static_cast<int>(cli::Exit::Usage);
+      out);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) return usage();
+  if (argc == 2 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"))) {
+    usage(stdout);
+    return 0;
+  }
+  if (argc != 3) {
+    usage(stderr);
+    return static_cast<int>(cli::Exit::Usage);
+  }
   try {
     run(argv[1], argv[2]);
     return 0;

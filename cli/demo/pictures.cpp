@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "figures/errors.h"
 #include "figures/lines.h"
 #include "figures/panels.h"
 #include "figures/scalogram.h"
 #include "plot/figure.h"
+#include "report.h"
 
 namespace demo {
 namespace {
@@ -31,12 +31,7 @@ std::vector<double> kilometres(const Study& study) {
   return figures::lengths(study.samples.points, study.samples.dimension, study.samples.closed);
 }
 
-// Three digits, as many for each of the pictures that are compared.
-std::string km(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.*f km", value < 9.995 ? 2 : 1, value);
-  return text;
-}
+std::string km(double value) { return cli::rounded(value, 3) + " km"; }
 
 // A map of the coast, ready for a sketch to be laid over it.
 Panel map_of(const Study& study) {
@@ -135,7 +130,7 @@ Panel error_panel(const Study& study, bool in_numbers) {
   panel.x.label = in_numbers ? "numbers stored" : "K: control points and details";
   panel.title = in_numbers ? "Counted in numbers stored, the filter's included" : "Counted in vectors";
   if (!in_numbers)
-    for (const auto budget : budgets) panel.x.ticks.push_back({double(budget), std::to_string(budget)});
+    for (const auto& row : study.rows) panel.x.ticks.push_back({double(row.budget), std::to_string(row.budget)});
   return panel;
 }
 
@@ -166,7 +161,7 @@ std::string levels_picture(const Study& study) {
   figure.height = 1500;
   figure.columns = 3;
   figure.title = "Level by level: the details of the first levels, and none of the finer ones";
-  figure.note = "Grey: the coast. Blue: synthesis by the filter fitted at K = " + std::to_string(shown_budget) +
+  figure.note = "Grey: the coast. Blue: synthesis by the filter fitted at K = " + std::to_string(study.shown_budget) +
                 ", the finer details zero, the control points and the other details solved for that.";
   std::vector<std::vector<Point>> drawn{coast(study)};
   for (int shown = 0; shown < 9; ++shown) {
@@ -199,7 +194,7 @@ std::string details_picture(const Study& study) {
   std::vector<std::vector<Point>> drawn{coast(study)};
   const auto add = [&](Sketch Row::*side, const Stroke& stroke, const std::string& name) {
     for (const auto& row : study.rows) {
-      if (row.budget != 16 && row.budget != 64 && row.budget != 256) continue;
+      if (study.rows.size() > 1 && row.budget != 16 && row.budget != 64 && row.budget != 256) continue;
       const auto& sketch = row.*side;
       drawn.push_back(polyline(sketch.points, study.samples.closed));
       Panel panel = map_of(study);
@@ -209,6 +204,7 @@ std::string details_picture(const Study& study) {
     }
   };
   add(&Row::start, start_stroke, "start");
+  figure.columns = static_cast<int>(figure.panels.size());  // a row each
   add(&Row::fitted, fitted_stroke, "fitted");
   share_ranges(figure.panels, drawn);
   return figure.bytes(Format::Png);

@@ -1,7 +1,8 @@
 #include "demo/study.h"
 
-#include <cstdio>
+#include <utility>
 
+#include "failure.h"
 #include "models.h"
 #include "report.h"
 
@@ -31,18 +32,29 @@ ifsm::Fit fitted(const cli::Samples& samples, const ifsm::Filter& start, std::in
   return ifsm::fit_sparse({samples.curve()}, options);
 }
 
-std::string fixed(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
-
 }  // namespace
 
-Study study(const std::string& path, const Progress& progress) {
+Plan plan(const std::string& path) {
   cli::Reading ring;
   ring.closed = true;
-  Study study{cli::read_curves(path, ring).all.front(), {}, 0, {}};
+  Plan plan{cli::read_curves(path, ring).all.front(), {}, 0};
+  if (plan.samples.dimension != 2)
+    throw cli::Failure(cli::Exit::Input, path + " has points of dimension " + std::to_string(plan.samples.dimension) +
+                                             "; the demo draws a coast of two columns.");
+  const auto info = ifsm::Model(cli::start_filter(start_name, 0, 0), plan.samples.curve()).describe();
+  for (std::int64_t budget = 8; budget <= 512 && budget <= info.control_points + info.details; budget *= 2) {
+    plan.budgets.push_back(budget);
+    if (budget <= 128) plan.shown_budget = budget;
+  }
+  if (plan.budgets.empty())
+    throw cli::Failure(cli::Exit::Input, path + " has " + cli::counted(std::size_t(info.samples), "point") +
+                                             ", too few for a sketch of 8 control points and details.");
+  return plan;
+}
+
+Study study(Plan plan, const Progress& progress) {
+  const auto& budgets = plan.budgets;
+  Study study{std::move(plan.samples), plan.shown_budget, {}, 0, {}};
   const auto start = cli::start_filter(start_name, 0, 0);
   const ifsm::Model exact(start, study.samples.curve());
   study.numbers_of_filter = free_numbers(start.describe());
@@ -56,7 +68,7 @@ Study study(const std::string& path, const Progress& progress) {
     const auto from_start = exact.keep(ifsm::most_significant(details).resolved(ifsm::Resolve::choice));
     study.rows.push_back({budgets[i], details, measured(study.samples, from_start, vectors, 0),
                           measured(study.samples, fit.sketch(0, 0), vectors, study.numbers_of_filter)});
-    if (budgets[i] == shown_budget) study.model = fit.model(0);
+    if (budgets[i] == study.shown_budget) study.model = fit.model(0);
   }
   return study;
 }
@@ -64,9 +76,9 @@ Study study(const std::string& path, const Progress& progress) {
 std::string table_of(const Study& study) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [budget, details, start, fitted] : study.rows)
-    rows.push_back({std::to_string(budget), std::to_string(details), fixed(start.distance.rms),
-                    fixed(fitted.distance.rms), fixed(start.distance.max), fixed(fitted.distance.max),
-                    std::to_string(start.numbers), std::to_string(fitted.numbers)});
+    rows.push_back({std::to_string(budget), std::to_string(details), cli::rounded(start.distance.rms),
+                    cli::rounded(fitted.distance.rms), cli::rounded(start.distance.max),
+                    cli::rounded(fitted.distance.max), std::to_string(start.numbers), std::to_string(fitted.numbers)});
   return std::to_string(study.model.describe().samples) +
          " samples told by K vectors, control points and details together: distances in km\n\n" +
          cli::aligned(

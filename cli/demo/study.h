@@ -1,7 +1,6 @@
 // What the demo finds out about a coast, before anything is drawn.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -10,9 +9,12 @@
 
 namespace demo {
 
-// How many vectors a sketch may hold: control points and details together.
-inline constexpr std::array<std::int64_t, 7> budgets{8, 16, 32, 64, 128, 256, 512};
-inline constexpr std::int64_t shown_budget = 128;  // whose fit the pictures of one model show
+// What is to be found out: known before anything is computed or written.
+struct Plan {
+  cli::Samples samples;
+  std::vector<std::int64_t> budgets;  // how many vectors a sketch may hold, control points and details together
+  std::int64_t shown_budget = 0;      // whose fit the pictures of one model show
+};
 
 // The best sketch that was found under one filter.
 struct Sketch {
@@ -29,6 +31,7 @@ struct Row {
 
 struct Study {
   cli::Samples samples;
+  std::int64_t shown_budget = 0;
   ifsm::Model model;                   // exact, under the filter fitted at shown_budget
   std::int64_t numbers_of_filter = 0;  // the free ones of a fitted filter; a named one costs none
   std::vector<Row> rows;               // each fitted at its own budget
@@ -37,7 +40,10 @@ struct Study {
 // Told a share of the work, 0 … 1, and a word for it; answers whether to stop.
 using Progress = std::function<bool(double, const std::string&)>;
 
-Study study(const std::string& path, const Progress& progress);
+// Throws cli::Failure for curves that are not of the plane, or too short for any budget.
+Plan plan(const std::string& path);
+
+Study study(Plan plan, const Progress& progress);
 
 // The table of errors, with what its columns mean.
 std::string table_of(const Study& study);

@@ -149,9 +149,9 @@ Shown residuals_panel(const std::vector<double>& curve, const std::vector<double
   std::vector<plot::Point> line;
   std::vector<double> distances;
   for (std::size_t k = 0; k * d < curve.size(); ++k) {
-    double square = 0;
-    for (std::size_t i = k * d; i < (k + 1) * d; ++i) square += (curve[i] - other[i]) * (curve[i] - other[i]);
-    distances.push_back(std::sqrt(square));
+    double apart = 0;
+    for (std::size_t i = k * d; i < (k + 1) * d; ++i) apart = std::hypot(apart, curve[i] - other[i]);
+    distances.push_back(apart);
     line.push_back({at[k], distances.back()});
   }
   const auto apart = cli::distance(curve, other, dimension);

@@ -1,6 +1,7 @@
 // Files are replaced whole or not at all.
 #include "files.h"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -53,6 +54,56 @@ TEST_F(Files, ASymbolicLinkStaysOne) {
   write_file(at("link"), "new");
   EXPECT_TRUE(fs::is_symlink(at("link")));
   EXPECT_EQ(read_file(at("target")), "new");
+}
+
+TEST_F(Files, ASymbolicLinkToNothingHasItsTargetMade) {
+  fs::create_directory(at("folder"));
+  fs::create_symlink("folder/target", at("second"));
+  fs::create_symlink("second", at("first"));
+  write_file(at("first"), "new");
+  EXPECT_TRUE(fs::is_symlink(at("first")) && fs::is_symlink(at("second")));
+  EXPECT_EQ(read_file(at("folder/target")), "new");
+  EXPECT_EQ(count(), 3u);
+}
+
+TEST_F(Files, APathThatLeadsNowhereIsAnOutputFailure) {
+  fs::create_symlink("loop", at("loop"));
+  write_file(at("plain"), "");
+  for (const auto& name : {std::string("loop"), std::string(300, 'x'), std::string("plain/x")}) {
+    EXPECT_EQ(code_of([&] { check_writable(at(name)); }), Exit::Output) << name;
+    EXPECT_EQ(code_of([&] { write_file(at(name), "1"); }), Exit::Output) << name;
+    EXPECT_EQ(code_of([&] { write_files({{at(name), "1"}}, Existing::Refused); }), Exit::Output) << name;
+  }
+  EXPECT_EQ(code_of([] { check_writable(""); }), Exit::Usage);
+  EXPECT_EQ(count(), 2u);
+}
+
+TEST_F(Files, ADescriptorIsWrittenToWhereItStands) {
+  const int descriptor = ::open(at("log").c_str(), O_WRONLY | O_CREAT, 0644);
+  ASSERT_EQ(::write(descriptor, "before ", 7), 7);
+  for (const std::string folder : {"/dev/fd/", "/proc/self/fd/"}) {
+    check_writable(folder + std::to_string(descriptor));
+    write_file(folder + std::to_string(descriptor), "x ");
+  }
+  fs::create_symlink("/dev/fd/" + std::to_string(descriptor), at("link"));
+  write_files({{at("link"), "y "}}, Existing::Refused);
+  ASSERT_EQ(::write(descriptor, "after", 5), 5);
+  ::close(descriptor);
+  EXPECT_EQ(read_file(at("log")), "before x x y after");
+  EXPECT_EQ(count(), 2u);
+  EXPECT_EQ(code_of([&] { check_writable("/dev/fd/" + std::to_string(descriptor)); }), Exit::Output);
+}
+
+TEST_F(Files, AnInputIsNoOutputUnderWhateverName) {
+  write_file(at("in"), "1");
+  write_file(at("other"), "1");
+  fs::create_symlink("in", at("link"));
+  fs::create_hard_link(at("in"), at("same"));
+  for (const std::string name : {"in", "link", "same", "./in"})
+    EXPECT_EQ(code_of([&] { check_not_read(at(name), {at("other"), at("in")}); }), Exit::Usage) << name;
+  EXPECT_EQ(code_of([&] { check_not_read(at("new"), {at("in"), ""}); }), Exit::Fine);
+  EXPECT_EQ(code_of([&] { check_not_read(at("other"), {at("in"), "-"}); }), Exit::Fine);
+  EXPECT_EQ(code_of([] { check_not_read("/dev/null", {"/dev/null"}); }), Exit::Fine);
 }
 
 TEST_F(Files, ANewFileHasTheUsualModeAndAReplacedOneKeepsItsOwn) {

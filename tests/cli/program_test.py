@@ -1,4 +1,4 @@
-"""The ifsm program from outside: python3 program_test.py PROGRAM"""
+"""The ifsm program and the demo beside it, from outside: python3 program_test.py PROGRAM"""
 import json
 import math
 import os
@@ -13,6 +13,8 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 
 PROGRAM = os.path.abspath(sys.argv.pop(1)) if len(sys.argv) > 1 else "ifsm"
+
+DEMO = os.path.join(os.path.dirname(PROGRAM), "ifsm-demo")
 
 
 def default_signals():
@@ -175,6 +177,31 @@ class Reports(Program):
         self.assertEqual(sum(level["details"] for level in info["energy_by_level"]), info["details"])
         self.assertEqual(sum(level["kept"] for level in info["energy_by_level"]), info["details_kept"])
         self.assertIn("condition", self.fine("info", self.model()))
+
+    def test_one_is_not_several(self):
+        source, model = self.file("in.csv", table([(0, 0), (1, 2), (3, 1), (4, 0)])), self.file("m.ifsm")
+        words = self.fine("fit", source, "--no-fit", "--maps", 2, "--control-points", 3, "-o", model)
+        self.assertIn("m.ifsm: 1 level, n = 3", words)
+        self.assertIn(": 1 point; ", self.fine("synth", model, "--samples", 1, "-o", self.file("out.csv")))
+
+    def test_numbers_have_any_size(self):
+        told = {}
+        for exponent in (0, 200, -200):
+            source, model = self.file("in.csv"), self.file("m.ifsm")
+            source.write_text("".join(f"{x!r}e{exponent},{y!r}e{exponent}\n" for x, y in
+                                      ((round(x, 4), round(y, 4)) for x, y in rough_ring(100))))
+            self.fine("fit", source, "--closed", "--no-fit", "-q", "-o", model)
+            sketch = json.loads(self.fine("synth", model, "--details", 20, "--json", "-o", self.file("out.csv")))
+            levels = json.loads(self.fine("info", model, "--json"))["energy_by_level"]
+            told[exponent] = [sketch["rms"], sketch["max"]] + [level["rms"] for level in levels]
+            words = self.fine("info", model)
+            self.assertNotIn("nan", words)
+            self.assertNotIn("inf ", words)
+            self.assertAlmostEqual(sum(float(line.split()[-2]) for line in words.splitlines() if line.endswith("%")), 100,
+                                   delta=1)
+        for exponent in (200, -200):
+            for one, other in zip(told[0], told[exponent]):
+                self.assertAlmostEqual(other / 10.0 ** exponent / one, 1, places=9)
 
     def test_quiet_is_quiet_and_a_pipe_has_no_bar(self):
         source = self.file("in.csv", table(rough_ring(100)))
@@ -444,7 +471,7 @@ class Misuse(Program):
     def test_usage(self):
         source, target, model = self.file("in.csv", "x,y\n0,0\n1,1\n2,0\n"), self.file("m.ifsm"), self.model()
         fit = ("fit", source, "-o", target)
-        self.refused(2, "subcommand")
+        self.refused(2, "ifsm: a command is missing: fit, info, ")
         self.refused(2, "--nonsense", *fit, "--nonsense")
         self.refused(2, "--output", "fit", source)
         self.refused(2, ["--control-points", "or auto"], *fit, "--control-points", "99")
@@ -464,6 +491,58 @@ class Misuse(Program):
         self.refused(2, "cannot both", "eval", "-", "--at", "-", stdin="")
         self.refused(2, "--at", "eval", model, "--at", "0.5,x")
         self.assertFalse(target.exists())
+
+    def test_every_usage_fault_is_one_sentence_of_the_program(self):
+        points, model, target = self.file("in.csv", table(rough_ring(20))), self.model(), self.file("m.ifsm")
+        fit = ("fit", points, "-o", target)
+        whole = "is not a whole number from "
+        for words, *arguments in [
+                ("'foo' is none of the commands fit, info, ", "foo"),
+                ("'--nonsense' is none of the commands ", "--nonsense", "fit"),
+                ("fit needs curves", "fit"),
+                ("fit needs --output", "fit", points),
+                ("--output needs a value", "fit", points, "-o"),
+                ("--output is given more than once", *fit, "-o", target),
+                ("fit has no option --nonsense", *fit, "--nonsense"),
+                ("fit does not expect 'b'", *fit, "b", "c"),
+                ("--closed: 'maybe' is no value", *fit, "--closed=maybe"),
+                ("--levels and --details do not go together", "synth", model, "--details", 3, "--levels", 1),
+                ("--format: 'xml' is none of json, cbor", *fit, "--format", "xml"),
+                *((f"--budget: '{value}' {whole}1 to 9223372036854775807", *fit, "--budget", value)
+                  for value in ("-1", "0", "1e9", "0x10", "8.5", "99999999999999999999")),
+                (f"--samples: '0' {whole}1 to 2147483647", "synth", model, "--samples", 0),
+                (f"--maps: '9' {whole}2 to 8, or auto", *fit, "--maps", 9),
+                *((f"--threshold: '{value}' is not a number from 0 on", "synth", model, "--threshold", value)
+                  for value in ("nan", "inf", "-1", "1e999", "x")),
+                ("--condition: '0' is not a number above 0", "train", points, "-o", target, "--condition", 0),
+                ("--columns: '-q' is no column", *fit, "--columns", ",", "-q"),
+                ("--columns names 5 columns; a curve has 1 to 4.", *fit, "--columns", "2,1,2,1,2"),
+                ("--levels: the model has 7 levels; give a number from 0 to 7.", "synth", model, "--levels", 8),
+                ("--details: the model has ", "synth", model, "--details", 100000),
+                ("--control-points, --maps: A filter", *fit, "-q", "--control-points", 8, "--maps", 8),
+                ("--control-points, --maps: A filter", "train", *fit[1:], "-q", "--control-points", 8, "--maps", 8),
+                ("--filter: The filter \"koch\" has 3 control points", *fit, "--filter", "koch", "--maps", 2),
+                ("--at: 'abc' is no list of numbers", "eval", model, "--at", "abc"),
+                ("--at: '0.1,,0.2' is no list of numbers", "eval", model, "--at", "0.1,,0.2"),
+                ("--levels: A tree", "refine", model, "--levels", 40, "-o", target)]:
+            with self.subTest(arguments=arguments):
+                result = run(*arguments)
+                self.assertEqual((result.returncode, result.stdout), (2, ""), result.stderr)
+                self.assertTrue(result.stderr.startswith("ifsm: " + words), result.stderr)
+                self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+                self.assertNotIn("give 0", result.stderr)
+        self.assertFalse(target.exists())
+
+    def test_numbers_are_decimal(self):
+        self.assertEqual(len(numbers(self.fine("synth", self.model(), "--samples", "010"))), 10)
+
+    def test_points_where_a_model_is_wanted(self):
+        self.model()
+        for command in ("info", "measure", "synth"):
+            self.refused(3, ["ring.csv is a table of points, not a model; fit it first: ifsm fit "], command,
+                         self.file("ring.csv"))
+        self.refused(3, "islands.geojson is GeoJSON, not a model", "info", ISLANDS)
+        self.refused(3, "fit it first: ifsm fit - -o", "info", "-", stdin="1,2\n3,4\n")
 
     def test_tables_that_are_none(self):
         target = self.file("m.ifsm")
@@ -523,6 +602,61 @@ class Output(Program):
                 result = subprocess.run([PROGRAM, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True)
                 self.assertEqual(result.returncode, 4, result.stderr)
                 self.assertIn("standard output", result.stderr)
+
+    def test_standard_output_is_written_to_under_any_name(self):
+        model, log = self.model(), self.file("log.txt")
+        table = self.fine("synth", model, "--samples", 2)
+        for name in ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1", "/dev/stderr"):
+            with open(log, "w") as output:
+                for write in (lambda: os.write(output.fileno(), b"before\n"),
+                              lambda: subprocess.run([PROGRAM, "synth", model, "--samples", "2", "-o", name], check=True,
+                                                     stdout=output, stderr=output),
+                              lambda: os.write(output.fileno(), b"after\n")):
+                    write()
+            self.assertEqual(log.read_text(), "before\n" + table + "after\n", name)
+        self.refused(2, "standard output", "synth", model, "--json", "-o", "/dev/stdout")
+
+    def test_an_input_is_not_replaced(self):
+        model, points = self.model(), self.folder / "ring.csv"
+        before = {name: self.file(name).read_bytes() for name in self.names()}
+        for arguments in (("fit", points, "--closed", "--no-fit", "-o", points), ("synth", model, "-o", model),
+                          ("refine", model, "-o", model), ("train", points, points, "-o", points),
+                          ("eval", model, "--params", points, "-o", points), ("nearest", model, points, "-o", points),
+                          ("plot", model, "--format", "svg", "-o", model)):
+            self.refused(2, "is the file that is read", *arguments)
+        with open(model) as stdin:
+            result = subprocess.run([PROGRAM, "synth", "-", "-o", str(model)], stdin=stdin, capture_output=True, text=True)
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("(standard input)", result.stderr)
+        self.assertEqual({name: self.file(name).read_bytes() for name in self.names()}, before)
+
+    def test_paths_that_lead_nowhere(self):
+        model = self.model()
+        self.file("loop").symlink_to("loop")
+        before = self.names()
+        for name, words in (("x" * 300, "too long"), ("loop", "symbolic links"), ("ring.csv/x", "ot a directory")):
+            self.refused(4, words, "synth", model, "-o", self.file(name))
+            self.refused(4, words, "fit", self.file("ring.csv"), "--no-fit", "-o", self.file(name))
+        self.refused(2, "-o '' names no file", "synth", model, "-o", "")
+        self.assertEqual(self.names(), before)
+
+    def test_names_need_not_be_utf_8(self):
+        points, model = os.fsencode(self.model().with_name("ring.csv")), os.fsencode(self.folder / "m") + b"\xff.ifsm"
+        picture = os.fsencode(self.folder / "p") + b"\xff.svg"
+        for arguments in ([b"fit", points, b"--no-fit", b"--json", b"-o", model],
+                          [b"plot", model, b"--show", b"curve", b"--json", b"-q", b"-o", picture]):
+            result = subprocess.run([PROGRAM, *arguments], capture_output=True)
+            self.assertEqual((result.returncode, result.stderr.replace(b"\xff", b"")), (0, b""))
+            self.assertIn("\ufffd", json.loads(result.stdout.decode())["output"])
+
+    @unittest.skipIf("SANITIZED" in os.environ, "sanitizers reserve more address space than the limit")
+    def test_too_little_memory_is_a_sentence(self):
+        model = self.model()
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
+        before = self.names()
+        self.refused(1, "ifsm: there is not enough memory", "synth", model, "--samples", 2147483647, "-o",
+                     self.file("big.csv"), preexec_fn=limit)
+        self.assertEqual(self.names(), before)
 
     def test_stages_fit_alone_and_give_exact_models(self):
         points = rough_ring(200)
@@ -618,6 +752,34 @@ class Train(Program):
                      self.file("f.json"))
 
 
+class Demo(Program):
+    def demo(self, *arguments):
+        return subprocess.run([DEMO, *map(str, arguments)], capture_output=True, text=True)
+
+    def test_help_is_no_fault(self):
+        told = self.demo("--help")
+        self.assertEqual((told.returncode, told.stderr), (0, ""))
+        self.assertTrue(told.stdout.startswith("usage: ifsm-demo"))
+        wrong = self.demo("one")
+        self.assertEqual((wrong.returncode, wrong.stdout), (2, ""))
+
+    def test_a_small_curve_has_fewer_budgets(self):
+        source, out = self.file("small.csv", table([(x * 1e-4, y * 1e-4) for x, y in rough_ring(30)])), self.file("out")
+        told = self.demo(source, out)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        rows = [line.split() for line in (out / "errors.txt").read_text().splitlines() if len(line.split()) == 8]
+        self.assertEqual([row[0] for row in rows if row[0].isdigit()], ["8", "16", "32"])
+        self.assertTrue(all(float(row[2]) > 0 for row in rows if row[0] in ("8", "16")), rows)
+        self.assertEqual(len(list(out.iterdir())), 7)
+
+    def test_curves_that_cannot_be_shown_leave_no_folder(self):
+        for text, words in (("0,0\n1,1\n1,0\n", "too few"), ("1,2,3\n2,3,4\n5,6,1\n", "dimension 3")):
+            told = self.demo(self.file("in.csv", text), self.file("out"))
+            self.assertEqual(told.returncode, 3, told.stderr)
+            self.assertIn(words, told.stderr)
+            self.assertEqual(self.names(), ["in.csv"])
+
+
 class Signals(Program):
     def interrupted(self, number, *arguments, after, **options):
         process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
@@ -645,9 +807,52 @@ class Signals(Program):
             self.assertEqual(self.file("m.ifsm").read_text(), "before")
 
     def test_a_signal_while_waiting_for_input(self):
-        code, _, _ = self.interrupted(signal.SIGINT, "fit", "-", "-o", self.file("m.ifsm"), after=0.5, stdin=subprocess.PIPE)
-        self.assertEqual(code, 130)
+        code, _, errors = self.interrupted(signal.SIGINT, "fit", "-", "-o", self.file("m.ifsm"), after=0.5, stdin=subprocess.PIPE)
+        self.assertEqual((code, errors), (130, "ifsm: cancelled; nothing was written.\n"))
         self.assertEqual(self.names(), [])
+
+    def behind_a_full_pipe(self, *arguments):
+        """Started with a standard output that takes nothing; and the end from which it can be emptied."""
+        reader, writer = os.pipe()
+        os.set_blocking(writer, False)
+        try:
+            while True:
+                os.write(writer, b" " * 4096)
+        except BlockingIOError:
+            os.set_blocking(writer, True)
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=writer, stderr=subprocess.PIPE, text=True,
+                                   preexec_fn=default_signals)
+        os.close(writer)
+        self.addCleanup(process.stderr.close)
+        return process, os.fdopen(reader)
+
+    def test_a_signal_after_the_result_is_in_place_is_too_late(self):
+        model, target = self.model(), self.file("keep.csv")
+        for signals, code in ((1, 0), (2, 4)):
+            process, pipe = self.behind_a_full_pipe("synth", model, "-o", target)
+            with pipe:
+                while not target.exists():
+                    time.sleep(0.01)
+                for _ in range(signals):
+                    time.sleep(0.2)
+                    self.assertIsNone(process.poll())
+                    process.send_signal(signal.SIGINT)
+                time.sleep(0.2)
+                if code != 0:
+                    process.wait(timeout=60)
+                told = pipe.read().strip()
+            self.assertEqual(process.wait(timeout=60), code)
+            self.assertEqual(len(numbers(target.read_text())), 300)
+            self.assertIn("keep.csv: 300 points" if code == 0 else "the result is written", told + process.stderr.read())
+            target.unlink()
+
+    def test_a_signal_while_a_pipe_takes_nothing(self):
+        process, pipe = self.behind_a_full_pipe("synth", self.model())
+        with pipe:
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(timeout=60), 130)
+            self.assertEqual(process.stderr.read(), "ifsm: cancelled; the output got a part only.\n")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,24 @@
+// What the values of options may be. Each refuses with the value and what is allowed: "-1 is not a whole number from 1
+// on".
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+namespace cli {
+
+// For CLI::Option::transform: numbers are decimal, whatever their zeros in front.
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high = std::numeric_limits<std::int64_t>::max());
+CLI::Validator whole_number_or_auto(std::uint64_t low, std::uint64_t high);
+CLI::Validator number_from_zero();
+CLI::Validator number_above_zero();
+CLI::Validator one_of(const std::vector<std::string>& words);
+
+// A column of a table: not the option that comes after a forgotten list.
+CLI::Validator column_name();
+
+}  // namespace cli
