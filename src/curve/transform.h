@@ -20,10 +20,11 @@ void analyze_level(const Filter& filter, ConstLine fine, Line coarse, Line detai
 // All levels at once, coarsest details first, with the bits of one level after the other. A subtree whose finest line
 // fits into the cache is finished before the next one is begun, and subtrees share the threads.
 void synthesize(const Filter& filter, ConstLine polygon, std::span<const ConstLine> details, Line fine);
-// Returns the largest coordinate of all polygons and details; not finite when one of them is not.
+// The largest coordinates; not finite when one of them is not.
 struct Extent {
   double polygons, details;
 };
+// The inverse. Returns the extent of all polygons but the finest, and of all details.
 Extent analyze(const Filter& filter, ConstLine fine, Line polygon, std::span<const Line> details);
 
 // The polygons alone, by any R^-1: for judging filters before they are made.
