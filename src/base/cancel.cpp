@@ -30,10 +30,12 @@ void Watch::ask_again() const {
 }
 
 Watch Watch::part(double from, double to) {
-  return {token_, [this, from, to](double fraction, const char* stage) {
-            report(from + (to - from) * fraction, stage);
-            return false;
-          }};
+  Watch result(token_, [this, from, to](double fraction, const char* stage) {
+    report(from + (to - from) * fraction, stage);
+    return false;
+  });
+  result.stage_ = stage_;
+  return result;
 }
 
 }  // namespace ifsm::core

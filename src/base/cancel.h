@@ -40,7 +40,7 @@ class Watch {
   // static.
   void report(double fraction, const char* stage);
 
-  // Everything reported through the result lies in [from, to] of this watch.
+  // Everything reported through the result lies in [from, to] of this watch, and is in its stage until it reports one.
   Watch part(double from, double to);
 
  private:
@@ -51,7 +51,7 @@ class Watch {
   Progress progress_;
   std::thread::id owner_;
   double reported_ = 0;
-  const char* stage_ = "";
+  const char* stage_ = "start";  // before the first report
   mutable Clock::time_point asked_;  // the owner's
 };
 

@@ -81,6 +81,30 @@ TEST(Watch, AsksTheCallbackAgainWhileItIsPolledAndNothingIsReported) {
   EXPECT_THROW(for (;;) watch.poll(), Cancelled) << "the whole asks as well";
 }
 
+TEST(Watch, NamesAStageBeforeTheFirstReport) {
+  std::string told;
+  Watch watch(nullptr, [&](double, const char* stage) {
+    told = stage;
+    return true;
+  });
+  EXPECT_THROW(for (;;) watch.poll(), Cancelled);
+  EXPECT_EQ(told, "start");
+}
+
+TEST(Watch, APartIsInTheStageOfTheWholeUntilItReports) {
+  std::string told;
+  bool cancel = false;
+  Watch whole(nullptr, [&](double, const char* stage) {
+    told = stage;
+    return cancel;
+  });
+  whole.report(0.25, "first");
+  cancel = true;
+  Watch part = whole.part(0.25, 1);
+  EXPECT_THROW(for (;;) part.poll(), Cancelled);
+  EXPECT_EQ(told, "first");
+}
+
 TEST(Watch, AsksTheCallbackOnItsOwnThreadAlone) {
   int asked = 0;
   const Watch watch(nullptr, [&](double, const char*) { return ++asked > 0; });
