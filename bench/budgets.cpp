@@ -1,10 +1,10 @@
 // K-detail errors of curves:  bench_budgets [--auto | --unfitted FILTER] SAMPLES curve.csv …
 // Every curve is resampled by arc length to SAMPLES + 1 points and fitted at each budget K on its own (--auto: the
 // shape chosen as well; --unfitted: under a filter by name, as it is), control points counted. Prints, a line a curve
-// and budget: name K rms n N milliseconds, for bench/compare.py.
-#include <chrono>
+// and budget: name K rms n N milliseconds (processor time), for bench/compare.py and bench/splprep.py.
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -50,11 +50,11 @@ void measure(const std::string& path, int samples, bool automatic, const std::st
   const ifsm_curve curve = {points.data(), samples + 1, 2, 0};
   const std::string name = path.substr(path.rfind('/') + 1);
   for (const std::int64_t budget : budgets) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     const Told told = filter.empty() ? fitted(curve, budget, automatic) : unfitted(points, budget, filter);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    const double took = 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     std::printf("%s %d %.17g %d %d %.0f\n", name.c_str(), static_cast<int>(budget), told.rms, told.shape.control_points,
-                told.shape.maps, took.count());
+                told.shape.maps, took);
     std::fflush(stdout);
   }
 }
