@@ -42,7 +42,7 @@ Told unfitted(const std::vector<double>& points, std::int64_t budget, const std:
   const std::vector<double> sketch = model.keep(kept).samples();
   double sum = 0;
   for (std::size_t i = 0; i < points.size(); ++i) sum += (sketch[i] - points[i]) * (sketch[i] - points[i]);
-  return {std::sqrt(sum / static_cast<double>(points.size() / 2)), shape};
+  return {std::sqrt(2 * sum / static_cast<double>(points.size())), shape};
 }
 
 void measure(const std::string& path, int samples, bool automatic, const std::string& filter) {
