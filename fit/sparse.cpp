@@ -96,16 +96,7 @@ class SparseFit {
   Sketch sketch(std::size_t curve, const FilterPtr& filter, const Choice& choice) {
     ModelParts parts = book_.start_model(curve)->parts();
     parts.filter = filter;
-    parts.polygon.matrix() = choice.solution.control;
-    close_ends(parts);
-    Index first = 0;
-    for (auto& level : parts.details) {
-      auto details = std::make_shared<Points>(level->dimension(), level->count());
-      details->matrix() = choice.solution.details.middleRows(first, details->count());
-      first += details->count();
-      level = std::move(details);
-    }
-    auto model = std::make_shared<Model>(std::move(parts));
+    ModelPtr model = solved_model(std::move(parts), choice.solution);
     const Points now = samples(*model);
     const Eigen::VectorXd squares = (now.matrix() - curves_[curve].samples.matrix()).rowwise().squaredNorm();
     return {std::move(model), std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())};

@@ -199,6 +199,11 @@ enum class Resolve : std::int32_t {
   values = IFSM_RESOLVE_VALUES,
   choice = IFSM_RESOLVE_CHOICE
 };
+enum class Distance : std::int32_t {
+  rms = IFSM_DISTANCE_RMS,
+  largest = IFSM_DISTANCE_LARGEST,
+  hausdorff = IFSM_DISTANCE_HAUSDORFF
+};
 enum class Format : std::int32_t { json = IFSM_FORMAT_JSON, cbor = IFSM_FORMAT_CBOR };
 
 // ------------------------------------------------------------------------------------------------------------------
@@ -258,8 +263,29 @@ class Filter {
   detail::Owner<ifsm_filter, ifsm_filter_destroy> handle_;
 };
 
+namespace detail {
+
+// Stands between the library and a std::function: an exception waits here until the library has returned.
+struct Trampoline {
+  const std::function<bool(double, const std::string&)>* progress;
+  std::exception_ptr thrown{};
+
+  static std::int32_t call(void* user, double fraction, const char* stage) noexcept {
+    auto& self = *static_cast<Trampoline*>(user);
+    try {
+      return (*self.progress)(fraction, stage) ? 1 : 0;
+    } catch (...) {
+      self.thrown = std::current_exception();
+      return 1;
+    }
+  }
+};
+
+}  // namespace detail
+
 // ------------------------------------------------------------------------------------------------------------------
-// Which details a sketch keeps: all of the first levels, so many, or those above a threshold
+// Which details a sketch keeps: all of the first levels, so many, those above a threshold, or as few as bring it within
+// a bound
 
 class Keep {
  public:
@@ -280,19 +306,37 @@ class Keep {
     options_.resolve = static_cast<std::int32_t>(resolve);
     return *this;
   }
+  // What a bound is measured by, and what solving makes small.
+  Keep& by(Distance distance) {
+    options_.distance = static_cast<std::int32_t>(distance);
+    return *this;
+  }
+  // As in FitOptions: returning true cancels.
+  Keep& telling(std::function<bool(double fraction, const std::string& stage)> progress) {
+    progress_ = std::move(progress);
+    return *this;
+  }
   // The token must live until the call ends.
   Keep& cancelled_by(const Cancel& token) {
     options_.cancel = token.handle();
     return *this;
   }
   const ifsm_keep_options& get() const noexcept { return options_; }
+  const std::function<bool(double fraction, const std::string& stage)>& progress() const noexcept { return progress_; }
 
  private:
   ifsm_keep_options options_{};
+  std::function<bool(double fraction, const std::string& stage)> progress_;
 };
 
 inline Keep first_levels(std::int64_t levels) { return Keep(IFSM_KEEP_LEVELS).count(levels); }
 inline Keep most_significant(std::int64_t details) { return Keep(IFSM_KEEP_COUNT).count(details); }
+inline Keep within(double bound, Distance distance = Distance::rms) {
+  return Keep(IFSM_KEEP_WITHIN).threshold(bound).by(distance);
+}
+inline Keep levels_within(double bound, Distance distance = Distance::rms) {
+  return Keep(IFSM_KEEP_LEVELS_WITHIN).threshold(bound).by(distance);
+}
 inline Keep above(double threshold) { return Keep(IFSM_KEEP_THRESHOLD).threshold(threshold); }
 
 // ------------------------------------------------------------------------------------------------------------------
@@ -426,7 +470,15 @@ class Model {
     return make([&](ifsm_model* made) { return ifsm_model_with_filter(handle(), filter.handle(), made); });
   }
   Model keep(const Keep& rule) const {
-    return make([&](ifsm_model* made) { return ifsm_model_keep(handle(), &rule.get(), made); });
+    ifsm_keep_options options = rule.get();
+    detail::Trampoline trampoline{&rule.progress()};
+    if (rule.progress()) options.progress = detail::Trampoline::call, options.user = &trampoline;
+    ifsm_model made{};
+    const ifsm_status status = ifsm_model_keep(handle(), &options, &made);
+    Model sketch(made);
+    if (trampoline.thrown) std::rethrow_exception(trampoline.thrown);
+    detail::check(status);
+    return sketch;
   }
 
   // Questions.
@@ -451,6 +503,10 @@ class Model {
     for (auto row = rows.begin(); row != rows.end(); row += width)
       found.push_back({row[0], row[1], std::vector<double>(row + 2, row + width)});
     return found;
+  }
+  ifsm_distances distance(const Model& other) const {
+    return detail::describe<ifsm_distances>(
+        [&](auto* told) { return ifsm_model_distance(handle(), other.handle(), told); });
   }
   std::vector<double> curvature(const std::vector<double>& parameters, double scale) const {
     return fetch<double>([&](auto... to) {
@@ -684,27 +740,11 @@ inline std::vector<ifsm_curve> curves_of(const std::vector<Curve>& curves) {
   return given;
 }
 
-// Stands between the library and a std::function: an exception waits here until the library has returned.
-struct Trampoline {
-  const std::function<bool(double, const std::string&)>* progress;
-  std::exception_ptr thrown;
-
-  static std::int32_t call(void* user, double fraction, const char* stage) noexcept {
-    auto& self = *static_cast<Trampoline*>(user);
-    try {
-      return (*self.progress)(fraction, stage) ? 1 : 0;
-    } catch (...) {
-      self.thrown = std::current_exception();
-      return 1;
-    }
-  }
-};
-
 // The options that all stages have, and the call itself: call(curves, count, options, fit).
 template <class Told, class Options, class Call>
 Fit run_fit(const std::vector<Curve>& curves, const Options& options, Told& told, const Call& call) {
   const std::vector<ifsm_curve> given = curves_of(curves);
-  Trampoline trampoline{&options.progress, nullptr};
+  Trampoline trampoline{&options.progress};
   told.threads = options.threads;
   if (options.start != nullptr) told.start = options.start->handle();
   told.control_points = options.control_points;
@@ -787,7 +827,7 @@ struct Trained {
 // One filter for a family of curves.
 inline Trained train(const std::vector<Curve>& curves, const TrainOptions& options = {}) {
   const std::vector<ifsm_curve> given = detail::curves_of(curves);
-  detail::Trampoline trampoline{&options.progress, nullptr};
+  detail::Trampoline trampoline{&options.progress};
   ifsm_train_options told{};
   detail::check(ifsm_train_options_init(&told, sizeof told));
   told.threads = options.threads;

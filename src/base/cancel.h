@@ -51,7 +51,7 @@ class Watch {
   Progress progress_;
   std::thread::id owner_;
   double reported_ = 0;
-  const char* stage_ = "start";  // before the first report
+  const char* stage_ = "start";      // before the first report
   mutable Clock::time_point asked_;  // the owner's
 };
 

@@ -10,6 +10,7 @@
 #include "measure/crossings.h"
 #include "measure/curvature.h"
 #include "measure/dimension.h"
+#include "measure/distance.h"
 #include "measure/length.h"
 #include "measure/nearest.h"
 #include "measure/refine.h"
@@ -130,6 +131,21 @@ ifsm_status ifsm_model_nearest(ifsm_model handle, const double* queries, int64_t
     deliver(points * (2 + model->dimension()), output(rows, capacity, "rows"), required(count, "count"), [&] {
       return rows_of(nearest(Polyline(*model), Points::from_interleaved(given.data, points, model->dimension())));
     });
+  });
+}
+
+ifsm_status ifsm_model_distance(ifsm_model handle, ifsm_model other_handle, ifsm_distances* told) {
+  return guarded(__func__, [&] {
+    const auto model = borrow(handle);
+    const auto other = borrow(other_handle, "other");
+    const Report report(told, "distances");
+    const Distances found = distances(*model, *other);
+    ifsm_distances values{};
+    values.rms = found.rms;
+    values.largest = found.largest;
+    values.farthest = found.farthest;
+    values.hausdorff = found.hausdorff;
+    report.write(values);
   });
 }
 

@@ -7,13 +7,14 @@
 #include "base/cancel.h"
 #include "capi/arguments.h"
 #include "capi/curves.h"
+#include "capi/fit_options.h"
 #include "capi/guarded.h"
 #include "capi/nouns.h"
 #include "curve/evaluate.h"
 #include "curve/frames.h"
 #include "curve/keep.h"
-#include "curve/resolve.h"
 #include "curve/significance.h"
+#include "fit/within.h"
 #include "io/model_reader.h"
 #include "io/model_writer.h"
 
@@ -32,19 +33,31 @@ int level_of_details(const Model& model, int32_t level) {
 }
 
 Kept kept_details(const Model& model, const ifsm_keep_options& options) {
-  switch (in_range(options.rule, IFSM_KEEP_LEVELS, IFSM_KEEP_THRESHOLD, "rule")) {
+  switch (options.rule) {
     case IFSM_KEEP_LEVELS: return first_levels(model, options.count);
     case IFSM_KEEP_COUNT: return most_significant(model, options.count);
     default: require_finite(&options.threshold, 1, "threshold"); return above(model, options.threshold);
   }
 }
 
-ModelPtr kept_model(const Model& model, const ifsm_keep_options& options, const Watch& watch) {
-  const auto how = in_range(options.resolve, IFSM_RESOLVE_NONE, IFSM_RESOLVE_CHOICE, "resolve");
-  const Kept kept = kept_details(model, options);
-  if (how == IFSM_RESOLVE_VALUES) return resolve(model, kept, watch);
-  if (how == IFSM_RESOLVE_CHOICE) return resolve_choice(model, kept, watch);
-  return keep(model, kept);
+void require_whole_levels(Resolve how) {
+  if (how == Resolve::choice)
+    throw Error(Status::range, "resolve",
+                "resolve is IFSM_RESOLVE_CHOICE, which would break up the levels that IFSM_KEEP_LEVELS_WITHIN keeps; "
+                "give IFSM_RESOLVE_VALUES, or the rule IFSM_KEEP_WITHIN.")
+        .with(IFSM_RESOLVE_CHOICE);
+}
+
+ModelPtr kept_model(const Model& model, const ifsm_keep_options& options, Watch& watch) {
+  in_range(options.rule, IFSM_KEEP_LEVELS, IFSM_KEEP_LEVELS_WITHIN, "rule");
+  const auto how = choice(options.resolve, Resolve::choice, "resolve");
+  const auto by = choice(options.distance, Distance::hausdorff, "distance");
+  if (options.rule == IFSM_KEEP_WITHIN) return keep_within(model, options.threshold, how, by, watch);
+  if (options.rule == IFSM_KEEP_LEVELS_WITHIN) {
+    require_whole_levels(how);
+    return keep_levels_within(model, options.threshold, how, by, watch);
+  }
+  return resolved(model, kept_details(model, options), how, by, watch);
 }
 
 }  // namespace
@@ -250,10 +263,9 @@ ifsm_status ifsm_model_keep(ifsm_model handle, const ifsm_keep_options* given, i
   return guarded(__func__, [&] {
     const auto model = borrow(handle);
     const ifsm_keep_options options = read_options(&required(given, "options"));
-    in_range(options.reserved, 0, 0, "reserved");
     const auto token = borrow_if_any(options.cancel, "cancel");
     required(kept, "kept");
-    const Watch watch(token.get(), nullptr);
+    Watch watch(token.get(), progress_of(options));
     watch.poll();
     issue(kept_model(*model, options, watch), *kept);
   });

@@ -69,6 +69,19 @@ ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch
   return resolve(model, choice.kept, watch);
 }
 
+ModelPtr solved_model(ModelParts parts, const Solution& solution) {
+  parts.polygon.matrix() = solution.control;
+  close_ends(parts);
+  Index first = 0;
+  for (auto& level : parts.details) {
+    auto details = std::make_shared<Points>(level->dimension(), level->count());
+    details->matrix() = solution.details.middleRows(first, details->count());
+    first += details->count();
+    level = std::move(details);
+  }
+  return std::make_shared<Model>(std::move(parts));
+}
+
 Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, const Watch& watch) {
   solver.factor(filter, kept, watch);
   Solution solution = solver.solve(data, watch);

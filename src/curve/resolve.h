@@ -23,6 +23,9 @@ struct Choice {
   double squared_error;
 };
 
+// The model that has the solved values, in the place of `parts`' own.
+ModelPtr solved_model(ModelParts parts, const Solution& solution);
+
 // `kept` as it is.
 Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, const Watch& watch);
 // Subspace pursuit, at most `trials` rounds: adds the details that would help most, drops those that help least, keeps

@@ -27,6 +27,9 @@ class TreeSolver {
   // weight: one for each value of the finest line (a closed line's last repeats its first: weight 0 there).
   TreeSolver(const Shape& shape, int levels, bool closed, Eigen::VectorXd weight);
 
+  // Other weights, for what is factored from now on.
+  void reweigh(Eigen::VectorXd weight) { weight_.swap(weight); }
+
   // Up the tree: eliminates the kept details of every node.
   void factor(const RowMatrix& filter, const Kept& kept, const Watch& watch);
 

@@ -62,13 +62,16 @@ double box_square(const Boxes& boxes, int level, Index node, const Vector<D>& qu
 template <int D>
 class Search {
  public:
-  Search(const Polyline& polyline, const Boxes& boxes, const Vector<D>& query)
+  // `guess` is a segment that may be near: the nearer, the less is looked at.
+  Search(const Polyline& polyline, const Boxes& boxes, const Vector<D>& query, Index guess)
       : polyline_(polyline), boxes_(boxes), query_(query) {
     double largest = 2;  // no coordinate of the curve is larger
     for (const double value : query) largest = std::max(largest, std::abs(value));
     // How far rounding may have brought a segment below the distance of its box: D + 8 roundings of coordinates and
     // their differences, each at most 2 · sqrt(D) · largest long; 4 · 64 is above that for D = 4.
     slack_ = 256 * epsilon * largest;
+    compare<D>(polyline, guess, query, best_);
+    set_limit();
     visit(boxes_.levels() - 1, 0);
   }
   const Best& best() const { return best_; }
@@ -90,6 +93,10 @@ class Search {
   void compare_leaf(Index leaf) {
     for (Index s = boxes_.first_segment(leaf); s < boxes_.end_segment(leaf); ++s)
       compare<D>(polyline_, s, query_, best_);
+    set_limit();
+  }
+
+  void set_limit() {
     const double reach = std::sqrt(best_.square) + slack_;
     limit_ = reach * reach;
   }
@@ -128,8 +135,11 @@ Nearest nearest_of_each(const Polyline& polyline, const Points& queries, const F
   Nearest answer{std::vector<double>(static_cast<std::size_t>(count)),
                  std::vector<double>(static_cast<std::size_t>(count)), Points(D, count)};
   parallel_for((count + chunk - 1) / chunk, 0, [&](Index part) {
-    for (Index q = part * chunk; q < std::min((part + 1) * chunk, count); ++q)
-      tell(polyline, find(in_units<D>(queries, q, polyline.unit())), q, answer);
+    Best last;  // queries are often neighbours, and so is what is near them
+    for (Index q = part * chunk; q < std::min((part + 1) * chunk, count); ++q) {
+      last = find(in_units<D>(queries, q, polyline.unit()), last.segment);
+      tell(polyline, last, q, answer);
+    }
   });
   for (Index q = 0; q < count; ++q)
     if (const double distance = answer.distances[static_cast<std::size_t>(q)]; !std::isfinite(distance))
@@ -144,13 +154,14 @@ Nearest nearest_of_each(const Polyline& polyline, const Points& queries, const F
 template <int D>
 Nearest by_tree(const Polyline& polyline, const Points& queries) {
   const Boxes boxes(polyline);
-  return nearest_of_each<D>(polyline, queries,
-                            [&](const Vector<D>& query) { return Search<D>(polyline, boxes, query).best(); });
+  return nearest_of_each<D>(polyline, queries, [&](const Vector<D>& query, Index guess) {
+    return Search<D>(polyline, boxes, query, guess).best();
+  });
 }
 
 template <int D>
 Nearest by_all(const Polyline& polyline, const Points& queries) {
-  return nearest_of_each<D>(polyline, queries, [&](const Vector<D>& query) {
+  return nearest_of_each<D>(polyline, queries, [&](const Vector<D>& query, Index) {
     Best best;
     for (Index segment = 0; segment < polyline.segments(); ++segment) compare<D>(polyline, segment, query, best);
     if (polyline.segments() > 0) return best;

@@ -7,8 +7,11 @@
 namespace ifsm::core {
 namespace {
 
-// The finest places; joined and closed, points() repeats the first at the end.
-Points places_of(const Model& model) {
+double power_of_two_below(double value) { return value > 0 ? std::ldexp(1.0, std::ilogb(value)) : 1.0; }
+
+}  // namespace
+
+Points places(const Model& model) {
   const Points all = points(model, model.levels());
   const Index places = model.placement().places();
   if (all.count() == places) return all;
@@ -17,11 +20,7 @@ Points places_of(const Model& model) {
   return once;
 }
 
-double power_of_two_below(double value) { return value > 0 ? std::ldexp(1.0, std::ilogb(value)) : 1.0; }
-
-}  // namespace
-
-Polyline::Polyline(const Model& model) : Polyline(places_of(model), model.closed()) {}
+Polyline::Polyline(const Model& model) : Polyline(places(model), model.closed()) {}
 
 Polyline::Polyline(const Points& points, bool closed)
     : dimension_(points.dimension()),

@@ -7,6 +7,9 @@
 
 namespace ifsm::core {
 
+// The finest places in the samples' coordinates, each once (of a joined ring points() repeats the first at the end).
+Points places(const Model& model);
+
 // Points and the straight segments between them, point by point, in units of a power of two that makes the largest
 // coordinate 1 … 2: dividing by it rounds nothing, and squares neither overflow nor vanish.
 class Polyline {

@@ -1,8 +1,10 @@
 // Models through the C ABI: each function's answer, and each kind of refusal.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -310,10 +312,42 @@ TEST_F(Model, RefusesToKeepWithoutARule) {
   options = keep_options(IFSM_KEEP_COUNT, 5);
   options.resolve = 3;
   FAILS(ifsm_model_keep(model, &options, &made), IFSM_ERROR_RANGE, "resolve");
-  options.resolve = 0, options.reserved = 1;
-  FAILS(ifsm_model_keep(model, &options, &made), IFSM_ERROR_RANGE, "reserved");
-  options.reserved = 0, options.struct_size = 0;
+  options.resolve = 0, options.distance = 3;
+  FAILS(ifsm_model_keep(model, &options, &made), IFSM_ERROR_RANGE, "distance");
+  options = keep_options(IFSM_KEEP_WITHIN, 0);
+  options.threshold = -1;
+  FAILS(ifsm_model_keep(model, &options, &made), IFSM_ERROR_RANGE, "threshold");
+  options = keep_options(IFSM_KEEP_LEVELS_WITHIN, 0);
+  options.threshold = 1, options.resolve = IFSM_RESOLVE_CHOICE;
+  FAILS(ifsm_model_keep(model, &options, &made), IFSM_ERROR_RANGE, "resolve");
+  options.struct_size = 0;
   FAILS(ifsm_model_keep(model, &options, &made), IFSM_ERROR_OPTIONS, "options");
+}
+
+TEST_F(Model, KeepsWhatItsBoundNeeds) {
+  ifsm_distances apart{};
+  apart.struct_size = sizeof apart;
+  WORKS(ifsm_model_distance(model, model, &apart));
+  EXPECT_EQ(apart.hausdorff, 0);
+  for (const int32_t rule : {IFSM_KEEP_WITHIN, IFSM_KEEP_LEVELS_WITHIN})
+    for (const int32_t resolve : {IFSM_RESOLVE_NONE, IFSM_RESOLVE_VALUES, IFSM_RESOLVE_CHOICE})
+      for (const int32_t distance : {IFSM_DISTANCE_RMS, IFSM_DISTANCE_LARGEST, IFSM_DISTANCE_HAUSDORFF}) {
+        if (rule == IFSM_KEEP_LEVELS_WITHIN && resolve == IFSM_RESOLVE_CHOICE) continue;
+        auto options = keep_options(rule, 0);
+        options.threshold = 0.05, options.resolve = resolve, options.distance = distance;
+        WORKS(ifsm_model_keep(model, &options, &made));
+        WORKS(ifsm_model_distance(model, made, &apart));
+        EXPECT_LE((std::array{apart.rms, apart.largest, apart.hausdorff})[static_cast<std::size_t>(distance)], 0.05);
+        WORKS(ifsm_model_destroy(std::exchange(made, {})));
+      }
+}
+
+TEST_F(Model, StopsKeepingWhenItsProgressCallbackSaysSo) {
+  auto options = keep_options(IFSM_KEEP_WITHIN, 0);
+  options.threshold = 0.05;
+  options.progress = [](void*, double, const char* stage) -> int32_t { return std::string(stage) == "search" ? 1 : 0; };
+  FAILS(ifsm_model_keep(model, &options, &made), IFSM_ERROR_CANCELLED, "");
+  EXPECT_EQ(made.id, 0u);
 }
 
 TEST_F(Model, StopsKeepingWhenItsTokenSaysSo) {

@@ -139,6 +139,20 @@ ifsm_status keep_with(World& world, std::uint64_t* made, std::int32_t resolve) {
 ifsm_status keep_resolved(World& world, std::uint64_t* made) { return keep_with(world, made, IFSM_RESOLVE_VALUES); }
 ifsm_status keep_choice(World& world, std::uint64_t* made) { return keep_with(world, made, IFSM_RESOLVE_CHOICE); }
 
+ifsm_status keep_within(World& world, std::uint64_t* made) {
+  ifsm_keep_options options{};
+  options.struct_size = sizeof options;
+  options.rule = IFSM_KEEP_WITHIN, options.threshold = 20;
+  options.resolve = IFSM_RESOLVE_CHOICE, options.distance = IFSM_DISTANCE_HAUSDORFF;
+  return ifsm_model_keep(world.model, &options, as<ifsm_model>(made));
+}
+
+ifsm_status distances(World& world, std::uint64_t*) {
+  ifsm_distances told{};
+  told.struct_size = sizeof told;
+  return ifsm_model_distance(world.model, world.model, &told);
+}
+
 ifsm_status evaluate(World& world, std::uint64_t*) {
   const double parameters[] = {0.25, 0.7, 1};
   std::int64_t count = 0;
@@ -258,6 +272,8 @@ const Scenario scenarios[] = {
     {"model_keep_resolve", "ifsm_model_keep", 1, 1, keep_resolved, drop_model},
     {"model_keep_resolve_two_threads", "ifsm_model_keep", 2, 5, keep_resolved, drop_model},
     {"model_keep_choice", "ifsm_model_keep", 1, 5, keep_choice, drop_model},
+    {"model_keep_within", "ifsm_model_keep", 1, 9, keep_within, drop_model},
+    {"model_distance", "ifsm_model_distance", 1, 1, distances, drop_nothing},
     {"model_length", "ifsm_model_length", 1, 1,
      [](World& world, std::uint64_t*) {
        double length = 0;

@@ -1,0 +1,207 @@
+#include "fit/approach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "fit/pulls.h"
+
+namespace ifsm::core {
+namespace {
+
+// While the choice changes, and of its values in the end: the 16-norm of 4097 places may be 1.7 times the largest.
+// Tried on the six coasts: a start at 2, or twice as many trials and steps, bring nothing.
+constexpr double powers[] = {4, 8, 16};
+constexpr double last_powers[] = {32, 64, 128, 256};
+constexpr double least_weight = 1e-4;  // of the largest: a place that is met at once still holds its part of the curve
+constexpr double better = 1 - 1e-3;    // falls of the norm below a thousandth are not worth a step
+constexpr int settling_steps = 10;     // before and after a choice is bettered
+constexpr int trial_steps = 6;         // of a choice on trial
+constexpr int exchange_trials = 8;
+
+struct State {
+  Kept kept;
+  Solution solution;
+  Pulls pulls;
+};
+
+Kept kept_in(const Model& model) {
+  Kept kept;
+  for (int level = 0; level < model.levels(); ++level) {
+    const auto rows = model.details(level).matrix().rowwise();
+    for (const auto row : rows) kept.push_back(row.isZero(0) ? 0 : 1);
+  }
+  return kept;
+}
+
+Index count_of(const Kept& kept) { return static_cast<Index>(std::ranges::count(kept, char{1})); }
+
+class Approach {
+ public:
+  Approach(const Model& model, Distance distance, const Watch& watch)
+      : model_(model),
+        filter_(model.filter().matrix()),
+        curve_(model, distance),
+        solver_(model.shape(), model.levels(), model.closed(), curve_.pulled()),
+        watch_(watch) {}
+
+  // Solved by least squares against the samples, as resolve() does.
+  State start(const Kept& kept) {
+    solver_.reweigh(sample_weights(model_));
+    return state(kept, solved(solver_, filter_, kept, curve_.data(), watch_).solution);
+  }
+
+  // Of all states that were met, the nearest.
+  State values(State state) {
+    State best = state;
+    for (const double power : powers) settle(state, power, settling_steps, best);
+    return finished(std::move(best));
+  }
+
+  State choice(State state) {
+    State best = state;
+    for (const double power : powers) {
+      settle(state, power, settling_steps, best);
+      exchange(state, power, best);
+      settle(state, power, settling_steps, best);
+    }
+    return finished(std::move(best));
+  }
+
+  ModelPtr model_of(const State& state) const { return solved_model(model_.parts(), state.solution); }
+  State state_of(const Model& sketch) {
+    Solution solution{lanes_of(sketch.parts().polygon), Lanes(model_.details_total(), model_.dimension()),
+                      lanes_of(line(sketch, sketch.levels()))};
+    Index first = 0;
+    for (int level = 0; level < sketch.levels(); ++level) {
+      const auto details = sketch.details(level).matrix();
+      solution.details.middleRows(first, details.rows()) = details;
+      first += details.rows();
+    }
+    return state(kept_in(sketch), std::move(solution));
+  }
+
+ private:
+  State finished(State state) {
+    State best = state;
+    for (const double power : last_powers) settle(state, power, settling_steps, best);
+    return best;
+  }
+
+  State state(Kept kept, Solution solution) const {
+    Pulls pulls = curve_.pulls(solution.curve);
+    return {std::move(kept), std::move(solution), std::move(pulls)};
+  }
+
+  // Reweighted least squares for the p-norm: the weights that make its gradient that of a weighted square.
+  Eigen::VectorXd weights(const Pulls& pulls, double power) const {
+    if (!(pulls.largest > 0)) return curve_.pulled();
+    const Eigen::ArrayXd relative = (pulls.distance / pulls.largest).array();
+    return relative.pow(power - 2).max(least_weight).matrix().cwiseProduct(curve_.pulled());
+  }
+
+  double norm(const Pulls& pulls, double power) const {
+    if (!(pulls.largest > 0)) return 0;
+    return pulls.largest * std::pow((pulls.distance / pulls.largest).array().pow(power).mean(), 1 / power);
+  }
+
+  Solution nearest_to(const Pulls& pulls, const Kept& kept, double power) {
+    solver_.reweigh(weights(pulls, power));
+    return solved(solver_, filter_, kept, pulls.target, watch_).solution;
+  }
+
+  std::vector<double> scores(const State& state, double power) {
+    return solver_.scores(nearest_to(state.pulls, state.kept, power));
+  }
+
+  State after(const State& state, Kept kept, double power) {
+    Solution solution = nearest_to(state.pulls, kept, power);
+    return this->state(std::move(kept), std::move(solution));
+  }
+
+  // Steps of 2 / (p - 1) of the way to the weighted solution, halved while the norm does not fall: whole ones overshoot
+  // (the norm's Hessian is p - 1 times the weighted square's). Returns the norm.
+  double settle(State& state, double power, int steps, State& best) {
+    double now = norm(state.pulls, power);
+    for (int step = 0; step < steps; ++step) {
+      const Solution aim = nearest_to(state.pulls, state.kept, power);
+      const double before = now;
+      double part = std::min(1.0, 2 / (power - 1));
+      for (int halving = 0; halving < 4 && now == before; ++halving, part /= 2) {
+        State next = this->state(state.kept, towards(state.solution, aim, part));
+        const double there = norm(next.pulls, power);
+        if (!(there < now)) continue;
+        now = there;
+        state = std::move(next);
+      }
+      if (state.pulls.largest < best.pulls.largest) best = state;
+      if (!(now < better * before)) break;
+    }
+    return now;
+  }
+
+  static Solution towards(const Solution& from, const Solution& to, double part) {
+    const auto between = [&](const Lanes& a, const Lanes& b) -> Lanes { return a + part * (b - a); };
+    return {between(from.control, to.control), between(from.details, to.details), between(from.curve, to.curve)};
+  }
+
+  // Subspace pursuit, as pursued() does it, for this norm: with more details than asked, then without those that are
+  // missed least.
+  void exchange(State& state, double power, State& best) {
+    const Index count = count_of(state.kept), all = static_cast<Index>(state.kept.size());
+    if (count == 0 || count == all) return;
+    double now = norm(state.pulls, power);
+    Index more = std::max<Index>(1, count / 4);
+    for (int trial = 0; trial < exchange_trials && more > 0; ++trial) {
+      State wide = after(state, most_wished(state, power, std::min(more, all - count)), power);
+      State none = wide;  // has more details than asked: never the best
+      settle(wide, power, trial_steps, none);
+      State next = after(wide, least_missed(wide, power, count_of(wide.kept) - count), power);
+      State best_next = next;
+      const double there = settle(next, power, trial_steps, best_next);
+      if (best_next.pulls.largest < best.pulls.largest) best = std::move(best_next);
+      if (there < better * now) {
+        now = there;
+        state = std::move(next);
+      } else {
+        more /= 2;
+      }
+    }
+  }
+
+  Kept most_wished(const State& state, double power, Index more) {
+    std::vector<double> wish = scores(state, power);
+    for (std::size_t i = 0; i < wish.size(); ++i)
+      if (state.kept[i]) wish[i] = std::numeric_limits<double>::infinity();
+    return largest(wish, count_of(state.kept) + more);
+  }
+
+  Kept least_missed(const State& state, double power, Index fewer) {
+    std::vector<double> worth = scores(state, power);
+    for (std::size_t i = 0; i < worth.size(); ++i)
+      if (!state.kept[i]) worth[i] = -1;
+    return largest(worth, count_of(state.kept) - fewer);
+  }
+
+  const Model& model_;
+  const RowMatrix& filter_;
+  PullingCurve curve_;
+  TreeSolver solver_;
+  const Watch& watch_;
+};
+
+}  // namespace
+
+ModelPtr approach(const Model& model, const Kept& kept, Distance distance, const Watch& watch) {
+  Approach approach(model, distance, watch);
+  return approach.model_of(approach.values(approach.start(kept)));
+}
+
+ModelPtr approach_choice(const Model& model, const Kept& kept, Distance distance, const Watch& watch) {
+  const ModelPtr nearest = resolve_choice(model, kept, watch);
+  Approach approach(model, distance, watch);
+  return approach.model_of(approach.choice(approach.state_of(*nearest)));
+}
+
+}  // namespace ifsm::core

@@ -1,0 +1,43 @@
+// What draws a sketch to the curve that it tells: for each place of its finest line the point to meet, and how far that
+// is. The largest of them is the distance that the sketch is judged by.
+#pragma once
+
+#include "curve/resolve.h"
+#include "measure/distance.h"
+
+namespace ifsm::core {
+
+struct Pulls {
+  Lanes target;
+  Eigen::VectorXd distance;  // 0 where nothing pulls
+  double largest;
+};
+
+// Distance::largest: places are drawn to their samples. Distance::hausdorff: to the nearest point of the samples'
+// polyline, so that sliding along the curve costs nothing; and where a sample is farther from the sketch than its
+// nearest place is from the samples, that place moves as the sample asks, lest capes be cut off.
+class PullingCurve {
+ public:
+  // `model` is joined.
+  PullingCurve(const Model& model, Distance distance);
+
+  Pulls pulls(const Lanes& line) const;
+
+  // The curve's own finest line, and 1 for each place that is pulled.
+  const Lanes& data() const { return data_; }
+  const Eigen::VectorXd& pulled() const { return pulled_; }
+
+ private:
+  Points points_of(const Lanes& line) const;
+  Pulls to_samples(const Lanes& line) const;
+  Pulls to_polyline(const Lanes& line) const;
+
+  Distance distance_;
+  bool closed_;
+  Lanes data_;
+  Eigen::VectorXd pulled_;
+  Points points_;  // of the curve, each once
+  Polyline polyline_;
+};
+
+}  // namespace ifsm::core

@@ -1,0 +1,26 @@
+// How far two curves are from each other.
+#pragma once
+
+#include "measure/polyline.h"
+
+namespace ifsm::core {
+
+enum class Distance : std::int32_t {
+  rms = 0,        // root of the mean square between samples of the same number
+  largest = 1,    // the largest between them
+  hausdorff = 2,  // between the polylines through the finest places: the farthest that a point of one is from the other
+};
+
+struct Distances {
+  double rms;
+  double largest;
+  Index farthest;  // the sample that is `largest` away, the first of them
+  double hausdorff;
+};
+
+// In the samples' units. A shape error unless dimensions agree and, but for Hausdorff, numbers of samples. Hausdorff
+// distances are taken at the places of both.
+Distances distances(const Model& model, const Model& other);
+double distance(const Model& model, const Model& other, Distance which);
+
+}  // namespace ifsm::core
