@@ -13,17 +13,6 @@
 namespace ifsm::core {
 namespace {
 
-// Models come back to their samples within 1e-12 of the diagonal: a bound below asks for rounding errors.
-void require_bound(const Model& model, double bound) {
-  require_finite(&bound, 1, "threshold");
-  const double least = 1e-12 * model.parts().diagonal;
-  if (bound >= least) return;
-  throw Error(Status::range, "threshold",
-              "threshold is " + text_of(bound) + "; models promise their samples within " + text_of(least) +
-                  " (1e-12 of the diagonal): give at least that.")
-      .with(bound);
-}
-
 constexpr Index exactly = std::numeric_limits<Index>::max();
 constexpr Index roughly = 8, closely = 32;
 
@@ -101,27 +90,39 @@ bool is_squares(const Model& model, Distance distance) { return distance == Dist
 
 ModelPtr found_within(const Model& model, double bound, Resolve how, Distance distance, Watch& watch) {
   Search search(model, bound, distance);
-  const auto sketch = [&](Index count) {
-    return resolved(model, most_significant(model, count), how, distance, watch);
+  const auto sketches = [&](Resolve by, Distance what) {
+    return [&, by, what](Index count) { return resolved(model, most_significant(model, count), by, what, watch); };
   };
-  const auto whole = [&] { return std::make_shared<Model>(model.parts()); };
-  if (how != Resolve::choice || is_squares(model, distance)) {
-    search.double_up(sketch, watch.part(0, 0.4));
-    search.halve(sketch, exactly, watch.part(0.4, 1));
-    return search.found() ? search.found() : whole();
-  }
-  // What is chosen for the mean square is made fast, and needs more details.
-  const auto by_squares = [&](Index count) {
-    return resolved(model, most_significant(model, count), how, Distance::rms, watch);
-  };
-  search.double_up(by_squares, watch.part(0, 0.15));
-  search.halve(by_squares, roughly, watch.part(0.15, 0.3));
+  const auto found = [&] { return search.found() ? search.found() : std::make_shared<Model>(model.parts()); };
+  // Values as they are, which cost nothing to try, bound the count from above.
+  search.double_up(sketches(Resolve::none, distance), watch.part(0, 0.03));
+  search.halve(sketches(Resolve::none, distance), exactly, watch.part(0.03, 0.06));
+  if (how == Resolve::none) return found();
   search.forget_too_few();
-  search.aim(sketch, closely, search.enough() / 2, watch.part(0.3, 1));
-  return search.found() ? search.found() : whole();
+  if (how == Resolve::values || is_squares(model, distance)) {
+    search.double_up(sketches(how, distance), watch.part(0.06, 0.5));
+    search.halve(sketches(how, distance), exactly, watch.part(0.5, 1));
+    return found();
+  }
+  // And so does what is chosen for the mean square, which is fast.
+  search.double_up(sketches(how, Distance::rms), watch.part(0.06, 0.15));
+  search.halve(sketches(how, Distance::rms), roughly, watch.part(0.15, 0.3));
+  search.forget_too_few();
+  search.aim(sketches(how, distance), closely, search.enough() / 2, watch.part(0.3, 1));
+  return found();
 }
 
 }  // namespace
+
+void require_bound(double bound, double diagonal, const char* argument) {
+  require_finite(&bound, 1, argument);
+  const double least = 1e-12 * diagonal;
+  if (bound >= least) return;
+  throw Error(Status::range, argument,
+              std::string(argument) + " is " + text_of(bound) + "; models promise their samples within " +
+                  text_of(least) + " (1e-12 of the diagonal): give at least that.")
+      .with(bound);
+}
 
 ModelPtr resolved(const Model& model, const Kept& kept, Resolve how, Distance distance, const Watch& watch) {
   if (how == Resolve::none) return keep(model, kept);
@@ -134,7 +135,7 @@ ModelPtr resolved(const Model& model, const Kept& kept, Resolve how, Distance di
 }
 
 ModelPtr keep_within(const Model& model, double bound, Resolve how, Distance distance, Watch& watch) {
-  require_bound(model, bound);
+  require_bound(bound, model.parts().diagonal, "threshold");
   if (const int exponent = exponent_to_remove(model.parts().diagonal)) {
     const ModelPtr near = scaled(model, -exponent);
     return scaled(*found_within(*near, std::scalbn(bound, -exponent), how, distance, watch), exponent);
@@ -143,7 +144,7 @@ ModelPtr keep_within(const Model& model, double bound, Resolve how, Distance dis
 }
 
 ModelPtr keep_levels_within(const Model& model, double bound, Resolve how, Distance distance, Watch& watch) {
-  require_bound(model, bound);
+  require_bound(bound, model.parts().diagonal, "threshold");
   for (int levels = 0; levels < model.levels(); ++levels) {
     watch.report(static_cast<double>(levels) / model.levels(), "search");
     ModelPtr sketch = resolved(model, first_levels(model, levels), how, distance, watch);

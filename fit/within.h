@@ -9,6 +9,10 @@ namespace ifsm::core {
 // What becomes of kept values: they stay; are solved; and their choice is bettered.
 enum class Resolve : std::int32_t { none = 0, values = 1, choice = 2 };
 
+// A range error below 1e-12 of the diagonal, which is what models promise of their samples: such a bound asks for
+// rounding.
+void require_bound(double bound, double diagonal, const char* argument);
+
 // The sketch that keeps these details (Resolve::choice: as many). Square models: solved for Distance::rms, whatever is
 // asked, and their choice stays.
 ModelPtr resolved(const Model& model, const Kept& kept, Resolve how, Distance distance, const Watch& watch);

@@ -589,7 +589,9 @@ struct FitOptions {
   std::vector<std::int64_t> budgets;  // of vectors, control points and details together
   int iterations = 0;
   int rounds = 0;
-  int polish = 0;  // -1: none
+  int polish = 0;     // -1: none
+  double within = 0;  // instead of budgets: a bound that sketches keep, by `distance`
+  Distance distance = Distance::rms;
   const Cancel* cancel = nullptr;
   // Returns true to cancel. Runs on the calling thread; what it throws comes out of fit_sparse.
   std::function<bool(double fraction, const std::string& stage)> progress;
@@ -771,6 +773,8 @@ inline Fit fit_sparse(const std::vector<Curve>& curves, const FitOptions& option
   told.budget_count = detail::size_of(options.budgets.size());
   told.rounds = options.rounds;
   told.polish = options.polish;
+  told.within = options.within;
+  told.distance = static_cast<std::int32_t>(options.distance);
   return detail::run_fit(curves, options, told, ifsm_fit_sparse);
 }
 

@@ -26,6 +26,20 @@ struct FitArguments {
 
 ifsm::Format format_of(const FitArguments& arguments) { return cli::format_of(arguments.output, arguments.format); }
 
+void check_tolerance(const FitSettings& settings) {
+  const bool within = settings.within > 0;
+  if (within && (settings.control_points == "auto" || settings.maps == "auto"))
+    throw Failure(Exit::Usage, "auto chooses by the errors at budgets, --within has none; give only one of them.");
+  if (within && settings.stage != "sparse")
+    throw Failure(Exit::Usage, "--within is for --stage sparse; leave one of them out.");
+  if (!settings.distance.empty() && !within)
+    throw Failure(Exit::Usage, "--distance says what --within measures; add --within.");
+  if (settings.sketch && settings.stage != "sparse")
+    throw Failure(Exit::Usage, "--sketch is for --stage sparse; the other stages make sketches without details.");
+  if (settings.no_fit && within != settings.sketch)
+    throw Failure(Exit::Usage, "with --no-fit, --within and --sketch go together: the sketch that keeps the bound.");
+}
+
 // What can be known to fail is said before the computation, not after it.
 void check_arguments(const FitArguments& arguments) {
   const auto& settings = arguments.settings;
@@ -41,6 +55,7 @@ void check_arguments(const FitArguments& arguments) {
                   "or fit that stage.");
   if (settings.levels && settings.stage != "filter")
     throw Failure(Exit::Usage, "--levels is for --stage filter: the levels whose details its filter is to tell well.");
+  check_tolerance(settings);
   refuse_json_beside_result(arguments.talk, arguments.output);
   refuse_binary_on_terminal(arguments.output, format_of(arguments));
 }
@@ -110,6 +125,19 @@ void add_settings(CLI::App& command, FitSettings& settings) {
                      ->delimiter(',')
                      ->allow_extra_args(false)
                      ->transform(whole_number(1));
+  command
+      .add_option("--within", settings.within,
+                  "Instead of budgets: fit to a tolerance, as few details as bring the sketch so near to the samples")
+      ->check(number_above_zero())
+      ->excludes(budget);
+  command
+      .add_option("--distance", settings.distance,
+                  "What --within measures: rms (default), max, both between samples, or hausdorff, between the curves "
+                  "as they are drawn")
+      ->check(distance_name());
+  command.add_flag(
+      "--sketch", settings.sketch,
+      "Write the sketch of the largest budget, or within the tolerance, not the exact model: a small file");
   command.add_option("--control-points", settings.control_points, "Points of a control polygon, n (default 5)")
       ->transform(whole_number_or_auto(1, 16));
   command.add_option("--maps", settings.maps, "Pieces that a polygon is cut into, N (default 2)")
@@ -169,6 +197,7 @@ void add_fit(CLI::App& program, Session& session) {
   command->footer(
       "Examples:\n"
       "  ifsm fit coast.csv --closed --budget 32,128 -o coast.ifsm\n"
+      "  ifsm fit coast.csv --within 2.5 --distance hausdorff --sketch -o simple.ifsm\n"
       "  ifsm fit track.csv --columns lon,lat --control-points auto -o track.json\n"
       "  ifsm fit logger.csv --gaps split -o 'piece-%d.ifsm'\n"
       "  ifsm fit isles.geojson --project -o 'isle-%d.ifsm'\n"

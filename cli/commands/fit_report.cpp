@@ -27,6 +27,7 @@ Json json_of(const ifsm::Fit& fit) {
     const auto row = fit.describe_budget(0, i);
     json["budgets"].push_back({{"budget", row.budget},
                                {"details", row.details},
+                               {"start_details", row.start_details},
                                {"start_rms", row.start_rms},
                                {"start_max", row.start_max},
                                {"rms", row.rms},
@@ -40,11 +41,12 @@ std::string number(const Json& value) { return std::to_string(value.get<std::int
 std::string words_of_fit(const Json& fit) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& row : fit["budgets"])
-    rows.push_back({number(row["budget"]), number(row["details"]), rounded(row["start_rms"]), rounded(row["rms"]),
-                    rounded(row["start_max"]), rounded(row["max"])});
+    rows.push_back({number(row["budget"]), number(row["start_details"]), number(row["details"]),
+                    rounded(row["start_rms"]), rounded(row["rms"]), rounded(row["start_max"]), rounded(row["max"])});
   return counted(fit["iterations"], "iteration") + " (" + fit["reason"].get<std::string>() + "), condition of R " +
          rounded(fit["start_condition"]) + " -> " + rounded(fit["final_condition"]) + "\n\n" +
-         aligned({"budget", "details", "start RMS", "fitted RMS", "start max", "fitted max"}, rows);
+         aligned({"budget", "start details", "fitted details", "start RMS", "fitted RMS", "start max", "fitted max"},
+                 rows);
 }
 
 // In full, as ifsm synth --unproject wants it.
@@ -93,11 +95,17 @@ std::string words_of_several(const Json& report) {
 
 Json report_of(const Samples& samples, const FittedModel& fitted, const WrittenModel& written) {
   const auto info = fitted.model.describe();
-  Json report{{"output", written.path},      {"format", written.format == ifsm::Format::json ? "json" : "cbor"},
-              {"bytes", written.bytes},      {"samples", info.samples},
-              {"dimension", info.dimension}, {"closed", info.closed == 1},
-              {"levels", info.levels},       {"control_points", info.control_points},
-              {"maps", info.maps},           {"details", info.details}};
+  Json report{{"output", written.path},
+              {"format", written.format == ifsm::Format::json ? "json" : "cbor"},
+              {"bytes", written.bytes},
+              {"samples", info.samples},
+              {"dimension", info.dimension},
+              {"closed", info.closed == 1},
+              {"levels", info.levels},
+              {"control_points", info.control_points},
+              {"maps", info.maps},
+              {"details", info.details},
+              {"details_kept", info.details_kept}};
   if (!samples.name.empty()) report["curve"] = samples.name;
   if (samples.middle)
     report["middle"] = {{"longitude", samples.middle->longitude}, {"latitude", samples.middle->latitude}};

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "commands/values.h"
 #include "failure.h"
 #include "models.h"
 #include "progress.h"
@@ -38,6 +39,8 @@ ifsm::FitOptions options_of_sparse(const FitSettings& settings) {
   options.budgets = settings.budgets;
   options.rounds = settings.rounds;
   if (settings.polish) options.polish = *settings.polish > 0 ? *settings.polish : no_polish;
+  options.within = settings.within;
+  options.distance = distance_of(settings.distance);
   return options;
 }
 
@@ -80,13 +83,24 @@ class Fitting {
 
   FittedModel model_of(std::size_t number, const ifsm::Cancel& token) {
     const auto& samples = curves_[number];
-    if (settings_.no_fit) return {ifsm::Model(filter_, samples.curve()), std::nullopt};
+    if (settings_.no_fit) return {unfitted(samples, number, token), std::nullopt};
     auto fit = fit_of(samples, number, token);
-    auto model = fit.model(0);
+    auto model = settings_.sketch ? fit.sketch(0, fit.describe().budgets - 1) : fit.model(0);
     return {std::move(model), std::move(fit)};
   }
 
  private:
+  ifsm::Model unfitted(const Samples& samples, std::size_t number, const ifsm::Cancel& token) {
+    ifsm::Model exact(filter_, samples.curve());
+    if (!settings_.sketch) return exact;
+    auto rule = ifsm::within(settings_.within, distance_of(settings_.distance)).resolved(ifsm::Resolve::choice);
+    rule.cancelled_by(token).telling([this, number](double fraction, const std::string& stage) {
+      tell(number, fraction, stage);
+      return false;
+    });
+    return exact.keep(rule);
+  }
+
   ifsm::Fit fit_of(const Samples& samples, std::size_t number, const ifsm::Cancel& token) {
     const std::vector<ifsm::Curve> curve{samples.curve()};
     if (settings_.stage == "curve")

@@ -24,10 +24,13 @@ struct FitSettings {
   std::optional<int> polish;
   int threads = 0;
   bool no_fit = false;
+  double within = 0;     // 0: not asked for
+  std::string distance;  // empty: RMS
+  bool sketch = false;   // models are the sketches of the largest budget
 };
 
 struct FittedModel {
-  ifsm::Model model;
+  ifsm::Model model;             // as it is written
   std::optional<ifsm::Fit> fit;  // none with no_fit
 };
 

@@ -10,6 +10,7 @@
 #include "files.h"
 #include "geojson.h"
 #include "models.h"
+#include "progress.h"
 #include "projection.h"
 
 namespace cli {
@@ -25,24 +26,29 @@ struct SynthArguments {
   std::optional<int> keep_levels;
   std::optional<std::int64_t> keep_details;
   std::optional<double> threshold;
-  std::string resolve;  // empty: not asked for
+  std::optional<double> within;
+  std::string distance;  // empty: RMS
+  std::string resolve;   // empty: not asked for
   std::optional<std::int64_t> count;
   std::optional<int> level;
   Talk talk;
 };
 
 bool keeps_all(const SynthArguments& arguments) {
-  return !arguments.keep_levels && !arguments.keep_details && !arguments.threshold;
+  return !arguments.keep_levels && !arguments.keep_details && !arguments.threshold && !arguments.within;
 }
 
 ifsm::Keep rule_of(const SynthArguments& arguments) {
   if (arguments.keep_levels) return ifsm::first_levels(*arguments.keep_levels);
   if (arguments.keep_details) return ifsm::most_significant(*arguments.keep_details);
+  if (arguments.within) return ifsm::within(*arguments.within);
   return ifsm::above(*arguments.threshold);
 }
 
+// The fewest details that keep a bound are wanted, unless less is asked for.
 ifsm::Resolve resolve_of(const SynthArguments& arguments) {
-  if (arguments.resolve.empty()) return ifsm::Resolve::none;
+  if (arguments.resolve.empty()) return arguments.within ? ifsm::Resolve::choice : ifsm::Resolve::none;
+  if (arguments.resolve == "none") return ifsm::Resolve::none;
   return arguments.resolve == "choice" ? ifsm::Resolve::choice : ifsm::Resolve::values;
 }
 
@@ -58,7 +64,15 @@ ifsm::Model sketch_of(const ifsm::Model& model, const SynthArguments& arguments,
   if (arguments.keep_levels) check_at_most("--levels", *arguments.keep_levels, info.levels, "level");
   if (arguments.keep_details) check_at_most("--details", *arguments.keep_details, info.details, "detail");
   const Interrupt::Cancellable job(session.interrupt);
-  auto sketch = model.keep(rule_of(arguments).resolved(resolve_of(arguments)).cancelled_by(job.token()));
+  Progress progress("synth", Progress::style_of_terminal(arguments.talk.quiet));
+  auto rule = rule_of(arguments).by(distance_of(arguments.distance)).resolved(resolve_of(arguments));
+  rule.cancelled_by(job.token());
+  if (arguments.within)  // the others have nothing to tell
+    rule.telling([&](double fraction, const std::string& stage) {
+      progress.update(fraction, stage);
+      return false;
+    });
+  auto sketch = model.keep(rule);
   job.confirm();
   return sketch;
 }
@@ -82,7 +96,7 @@ std::vector<double> points_of(const ifsm::Model& model, const SynthArguments& ar
 
 Json report_of(const SynthArguments& arguments, const ifsm::Model& model, const ifsm::Model& sketch, std::size_t rows) {
   const auto info = sketch.describe();
-  const auto apart = distance(model.samples(), sketch.samples(), info.dimension);
+  const auto apart = model.distance(sketch);
   return {{"model", input_name(arguments.model)},
           {"output", arguments.output.path},
           {"points", rows},
@@ -90,13 +104,15 @@ Json report_of(const SynthArguments& arguments, const ifsm::Model& model, const 
           {"details", info.details},
           {"details_kept", info.details_kept},
           {"rms", apart.rms},
-          {"max", apart.max}};
+          {"max", apart.largest},
+          {"hausdorff", apart.hausdorff}};
 }
 
 std::string in_words(const Json& report) {
   return report["output"].get<std::string>() + ": " + counted(report["points"], "point") + "; " +
          report["details_kept"].dump() + " of " + counted(report["details"], "detail") + ", RMS " +
-         rounded(report["rms"]) + " and at most " + rounded(report["max"]) + " from the model\n";
+         rounded(report["rms"]) + ", at most " + rounded(report["max"]) + " and Hausdorff " +
+         rounded(report["hausdorff"]) + " from the model\n";
 }
 
 constexpr double metres_in_a_kilometre = 1e3;
@@ -106,7 +122,9 @@ void check_arguments(const SynthArguments& arguments) {
   refuse_json_beside_result(arguments.talk, arguments.output.path);
   if (!arguments.unproject.empty()) typed_degrees("--unproject", arguments.unproject);
   if (!arguments.resolve.empty() && keeps_all(arguments))
-    throw Failure(Exit::Usage, "--resolve solves anew what is kept; add --levels, --details or --threshold.");
+    throw Failure(Exit::Usage, "--resolve solves anew what is kept; add --levels, --details, --threshold or --within.");
+  if (!arguments.distance.empty() && resolve_of(arguments) == ifsm::Resolve::none && !arguments.within)
+    throw Failure(Exit::Usage, "--distance is for --within, and for --resolve: what it measures, and makes small.");
   check_writable(arguments.output.path);
   check_not_read(arguments.output.path, {arguments.model});
 }
@@ -169,10 +187,22 @@ void add_synth(CLI::App& program, Session& session) {
       ->excludes(levels)
       ->excludes(details);
   command
-      ->add_flag("--resolve{choice}", a.resolve,
-                 "Solve the kept details and control points anew, by least squares, and better which details are kept; "
-                 "--resolve=values leaves the choice as it is")
-      ->check(one_of({"values", "choice"}));
+      ->add_option("--within", a.within, "Keep as few details as bring the sketch so near to the curve, by --distance")
+      ->check(number_above_zero())
+      ->excludes(levels)
+      ->excludes(details)
+      ->excludes("--threshold");
+  command
+      ->add_option("--distance", a.distance,
+                   "What is to be small: rms (default), max, both between samples, or hausdorff, between the curves as "
+                   "they are drawn")
+      ->check(distance_name());
+  command
+      ->add_flag(
+          "--resolve{choice}", a.resolve,
+          "Solve the kept details and control points anew, and better which details are kept (--within does so); "
+          "--resolve=values leaves the choice as it is, none also the values")
+      ->check(one_of({"none", "values", "choice"}));
   auto* count = command->add_option("--samples", a.count, "So many points, equally spaced in parameter")
                     ->transform(whole_number(1, std::numeric_limits<std::int32_t>::max()));
   command->add_option("--level", a.level, "The points of a level; 0 is the control polygon")
@@ -184,6 +214,7 @@ void add_synth(CLI::App& program, Session& session) {
       "Examples:\n"
       "  ifsm synth coast.ifsm -o points.csv\n"
       "  ifsm synth coast.ifsm --details 64 --resolve -o sketch.csv\n"
+      "  ifsm synth coast.ifsm --within 2.5 --distance hausdorff -o simple.csv\n"
       "  ifsm synth coast.ifsm --level 0            (the control polygon)\n"
       "  ifsm synth isle.ifsm --geojson --unproject=-18.98,64.96 -o isle.geojson\n"
       "  ifsm synth coast.ifsm --levels 4 --samples 1000 --separator tab\n");

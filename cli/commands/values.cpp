@@ -65,6 +65,13 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
           ""};
 }
 
+CLI::Validator distance_name() { return one_of({"rms", "max", "hausdorff"}); }
+
+ifsm::Distance distance_of(const std::string& name) {
+  if (name == "max") return ifsm::Distance::largest;
+  return name == "hausdorff" ? ifsm::Distance::hausdorff : ifsm::Distance::rms;
+}
+
 CLI::Validator column_name() {
   return {[](std::string& text) -> std::string {
             const bool option = text.size() > 1 && text.front() == '-';

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <ifsm.hpp>
 
 namespace cli {
 
@@ -17,6 +18,10 @@ CLI::Validator whole_number_or_auto(std::uint64_t low, std::uint64_t high);
 CLI::Validator number_from_zero();
 CLI::Validator number_above_zero();
 CLI::Validator one_of(const std::vector<std::string>& words);
+
+// Of `--distance`: rms, max, hausdorff.
+CLI::Validator distance_name();
+ifsm::Distance distance_of(const std::string& name);
 
 // A column of a table: not the option that comes after a forgotten list.
 CLI::Validator column_name();

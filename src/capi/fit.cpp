@@ -1,17 +1,21 @@
 #include <ifsm.h>
 
+#include <optional>
+#include <string>
+#include <utility>
+
 #include "capi/fit_options.h"
 #include "capi/guarded.h"
 #include "capi/nouns.h"
 #include "fit/certainty.h"
 #include "fit/sparse.h"
+#include "fit/tolerance.h"
 
 using namespace ifsm::core;
 
 namespace {
 
 FitOptions options_of(const ifsm_fit_options& given) {
-  in_range(given.reserved, 0, 0, "reserved");
   FitOptions options;
   options.start = borrow_if_any(given.start, "start");
   options.control_points = count_or_none(given.control_points, 16, options.control_points, "control_points");
@@ -21,6 +25,25 @@ FitOptions options_of(const ifsm_fit_options& given) {
   options.sparse_rounds = count_or(given.rounds, 100, options.sparse_rounds, "rounds");
   options.polish_rounds = count_or_none(given.polish, 100, options.polish_rounds, "polish");
   return options;
+}
+
+// None when no bound is given.
+std::optional<Tolerance> tolerance_of(const ifsm_fit_options& given, const FitOptions& options) {
+  const Tolerance tolerance{positive_or(given.within, 0, "within"),
+                            choice(given.distance, Distance::hausdorff, "distance")};
+  if (tolerance.bound == 0) return std::nullopt;
+  if (!options.budgets.empty())
+    throw Error(
+        Status::range, "within",
+        "within is " + text_of(given.within) + " and there are budgets; a fit is to a bound or to budgets: give one.")
+        .with(given.within);
+  for (const auto& [value, name] : {std::pair{options.control_points, "control_points"}, {options.maps, "maps"}})
+    if (value == 0 && !options.start)
+      throw Error(
+          Status::range, name,
+          std::string(name) + " is -1, which chooses a shape by its errors at budgets; with `within` give a number.")
+          .with(-1);
+  return tolerance;
 }
 
 std::size_t curve_in(const FitResult& fit, int64_t curve) {
@@ -57,11 +80,13 @@ ifsm_status ifsm_fit_sparse(const ifsm_curve* curves, int64_t curve_count, const
     required(fit, "fit");
     const ifsm_fit_options read = read_options(given);
     const FitOptions options = options_of(read);
+    const auto tolerance = tolerance_of(read, options);
     const Threads threads(threads_of(read.threads));
     const auto token = borrow_if_any(read.cancel, "cancel");
     const auto samples = curves_of(curves, curve_count);
     Watch watch(token.get(), progress_of(read));
-    auto result = std::make_shared<FitResult>(fit_sparse(samples, options, watch));
+    auto result = std::make_shared<FitResult>(tolerance ? fit_to_tolerance(samples, options, *tolerance, watch)
+                                                        : fit_sparse(samples, options, watch));
     log_summary("ifsm_fit_sparse", *result);
     issue(std::move(result), *fit);
   });
@@ -164,6 +189,7 @@ ifsm_status ifsm_fit_describe_budget(ifsm_fit handle, int64_t curve, int64_t bud
     told.start_max = asked.start.max;
     told.rms = asked.fitted.rms;
     told.max = asked.fitted.max;
+    told.start_details = asked.start.model->details_kept();
     Report(row, "row").write(told);
   });
 }

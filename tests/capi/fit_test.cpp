@@ -1,4 +1,5 @@
 // Fits through the C ABI: what goes in, what comes out, and how they stop.
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -90,6 +91,31 @@ TEST_F(Fit, GivesTheSketchThatItReportsOn) {
   WORKS(ifsm_model_destroy(sketch));
 }
 
+TEST_F(Fit, KeepsTheBoundThatItIsGiven) {
+  for (const int32_t distance : {IFSM_DISTANCE_RMS, IFSM_DISTANCE_LARGEST, IFSM_DISTANCE_HAUSDORFF}) {
+    auto options = fit_options();
+    options.within = 0.05, options.distance = distance;
+    WORKS(ifsm_fit_sparse(curves.data(), 2, &options, &fit));
+    for (const int64_t curve : {0, 1}) {
+      ifsm_model model{}, sketch{};
+      WORKS(ifsm_fit_model(fit, curve, &model));
+      WORKS(ifsm_fit_sketch(fit, curve, 0, &sketch));
+      ifsm_distances apart{};
+      apart.struct_size = sizeof apart;
+      WORKS(ifsm_model_distance(model, sketch, &apart));
+      EXPECT_LE((std::array{apart.rms, apart.largest, apart.hausdorff})[static_cast<std::size_t>(distance)], 0.05);
+      ifsm_fit_budget row{};
+      row.struct_size = sizeof row;
+      WORKS(ifsm_fit_describe_budget(fit, curve, 0, &row));
+      EXPECT_EQ(row.details + options.control_points, row.budget);
+      EXPECT_GT(row.start_details, 0);
+      WORKS(ifsm_model_destroy(model));
+      WORKS(ifsm_model_destroy(sketch));
+    }
+    WORKS(ifsm_fit_destroy(std::exchange(fit, {})));
+  }
+}
+
 TEST_F(Fit, StartsFromTheFilterThatItIsGiven) {
   auto options = fit_options();
   WORKS(ifsm_filter_named("casteljau", IFSM_TOPOLOGY_JOINED, 4, 2, &options.start));
@@ -159,7 +185,14 @@ TEST_F(Fit, NamesTheOptionThatIsWrong) {
   refuse("iterations", [](auto& o) { o.iterations = 1001; });
   refuse("rounds", [](auto& o) { o.rounds = -1; });
   refuse("polish", [](auto& o) { o.polish = 101; });
-  refuse("reserved", [](auto& o) { o.reserved = 1; });
+  refuse("distance", [](auto& o) { o.distance = 3; });
+  refuse("within", [](auto& o) { o.within = -1; });
+  refuse("within", [](auto& o) { o.within = 1e-300; });
+  refuse("within", [](auto& o) {
+    static const int64_t budget = 20;
+    o.within = 1, o.budgets = &budget, o.budget_count = 1;
+  });
+  refuse("control_points", [](auto& o) { o.within = 1, o.control_points = -1; });
   EXPECT_EQ(fit.id, 0u);
 }
 
