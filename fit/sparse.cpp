@@ -93,17 +93,25 @@ class SparseFit {
     converged_ = found.converged;
   }
 
-  Sketch sketch(std::size_t curve, const FilterPtr& filter, const Choice& choice) {
-    ModelParts parts = book_.start_model(curve)->parts();
+  // Levels without details are the same in all sketches of a curve.
+  Sketch sketch(std::size_t curve, const FilterPtr& filter, const Choice& choice, std::vector<PointsPtr>& zeros) {
+    ModelParts parts = book_.blank(curve);
     parts.filter = filter;
     parts.polygon.matrix() = choice.solution.control;
     close_ends(parts);
-    Index first = 0;
-    for (auto& level : parts.details) {
-      auto details = std::make_shared<Points>(level->dimension(), level->count());
-      details->matrix() = choice.solution.details.middleRows(first, details->count());
-      first += details->count();
-      level = std::move(details);
+    auto flag = choice.kept.begin();
+    Index value = 0;
+    for (PointsPtr& zero : zeros) {
+      const auto end = flag + zero->count();
+      if (std::find(flag, end, char{1}) == end) {
+        parts.details.push_back(zero);
+        flag = end;
+        continue;
+      }
+      auto details = std::make_shared<Points>(zero->dimension(), zero->count());
+      for (Index i = 0; flag != end; ++i)
+        if (*flag++) details->matrix().row(i) = choice.solution.values.row(value++);
+      parts.details.push_back(std::move(details));
     }
     auto model = std::make_shared<Model>(std::move(parts));
     const Points now = samples(*model);
@@ -117,10 +125,13 @@ class SparseFit {
     result.filter = unchanged ? book_.start() : std::make_shared<Filter>(book_.shape(), best.matrix);
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       result.models.push_back(book_.model(c, result.filter));
+      std::vector<PointsPtr> zeros;
+      for (const PointsPtr& level : result.models.back()->parts().details)
+        zeros.push_back(std::make_shared<Points>(level->dimension(), level->count()));
       auto& rows = result.budgets.emplace_back();
       for (std::size_t b = 0; b < budgets_.size(); ++b)
-        rows.push_back({budgets_[b], book_.details(budgets_[b]), sketch(c, book_.start(), start.choices[c][b]),
-                        sketch(c, result.filter, best.choices[c][b])});
+        rows.push_back({budgets_[b], book_.details(budgets_[b]), sketch(c, book_.start(), start.choices[c][b], zeros),
+                        sketch(c, result.filter, best.choices[c][b], zeros)});
     }
     result.reason = unchanged ? FitReason::start_best : converged_ ? FitReason::converged : FitReason::iterations;
     result.iterations = iterations_;

@@ -15,7 +15,6 @@ ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch
 
 // The pieces, for the fit: what a joined model's samples ask of the finest line.
 Eigen::VectorXd sample_weights(const Model& model);
-Lanes lanes_of(const Points& line);
 
 struct Choice {
   Kept kept;
@@ -24,17 +23,17 @@ struct Choice {
 };
 
 // `kept` as it is.
-Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, const Watch& watch);
+Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Points& data, const Watch& watch);
 // Subspace pursuit, at most `trials` rounds: adds the details that would help most, drops those that help least, keeps
 // what is better.
-Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Lanes& data, int trials,
+Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Points& data, int trials,
                const Watch& watch);
 
 // `count` details gathered from none, those first that help most beside what is there: a start that does not trust the
 // size of the details, which under an ill-conditioned filter are large and cancel.
-Choice gathered(TreeSolver& solver, const RowMatrix& filter, Index count, const Lanes& data, const Watch& watch);
+Choice gathered(TreeSolver& solver, const RowMatrix& filter, Index count, const Points& data, const Watch& watch);
 // The better one of both starts, pursued.
-Choice best_choice(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, int trials,
+Choice best_choice(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Points& data, int trials,
                    const Watch& watch);
 
 }  // namespace ifsm::core
