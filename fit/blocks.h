@@ -11,8 +11,9 @@ namespace ifsm::core {
 
 class Blocks {
  public:
-  Blocks(const Shape& shape, int levels) : level_(levels) {
-    while (level_ > 0 && shape.polygon_step() * shape.nodes(levels - level_ + 1) <= most_places) --level_;
+  // Their roots lie on level `least` or below it.
+  Blocks(const Shape& shape, int levels, int least = 0) : level_(levels) {
+    while (level_ > least && shape.polygon_step() * shape.nodes(levels - level_ + 1) <= most_places) --level_;
     count_ = shape.nodes(level_);
   }
 

@@ -94,14 +94,14 @@ class SparseFit {
   }
 
   // Levels without details are the same in all sketches of a curve.
-  Sketch sketch(std::size_t curve, const FilterPtr& filter, const Choice& choice, std::vector<PointsPtr>& zeros) {
+  Sketch sketch(std::size_t curve, const FilterPtr& filter, const Choice& choice, const std::vector<PointsPtr>& zeros) {
     ModelParts parts = book_.blank(curve);
     parts.filter = filter;
     parts.polygon.matrix() = choice.solution.control;
     close_ends(parts);
     auto flag = choice.kept.begin();
     Index value = 0;
-    for (PointsPtr& zero : zeros) {
+    for (const PointsPtr& zero : zeros) {
       const auto end = flag + zero->count();
       if (std::find(flag, end, char{1}) == end) {
         parts.details.push_back(zero);
@@ -125,9 +125,7 @@ class SparseFit {
     result.filter = unchanged ? book_.start() : std::make_shared<Filter>(book_.shape(), best.matrix);
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       result.models.push_back(book_.model(c, result.filter));
-      std::vector<PointsPtr> zeros;
-      for (const PointsPtr& level : result.models.back()->parts().details)
-        zeros.push_back(std::make_shared<Points>(level->dimension(), level->count()));
+      const auto zeros = zero_details(*result.models.back());
       auto& rows = result.budgets.emplace_back();
       for (std::size_t b = 0; b < budgets_.size(); ++b)
         rows.push_back({budgets_[b], book_.details(budgets_[b]), sketch(c, book_.start(), start.choices[c][b], zeros),

@@ -100,8 +100,8 @@ GainTangents gain_tangents(const Shape& shape, int levels, const RowMatrix& matr
 Sparsity::Sparsity(const Shape& shape, std::vector<SparseCurve> curves, const Watch& watch)
     : shape_(shape), curves_(std::move(curves)), watch_(watch), entries_(free_entries(shape)) {}
 
-// A subtree, or the top of the tree: the line that it stands on, which becomes the line of its root; and the tangents of
-// that line's inner points, a row each (of the finest line there are none: it does not move).
+// A subtree, or the top of the tree: the line that it stands on, which becomes the line of its root; and the tangents
+// of that line's inner points, a row each (of the finest line there are none: it does not move).
 struct Sparsity::Part {
   int root, levels;
   Eigen::MatrixXd line;
@@ -265,8 +265,7 @@ void Sparsity::gather(const Climb& climb, Part& part, RowSink& sink) const {
       if (level + 1 == climb.curve.levels || inner == 0)
         tangent.setZero();
       else
-        tangent.noalias() =
-            climb.lift * part.tangent.middleRows(node * shape_.maps() * inner, shape_.maps() * inner);
+        tangent.noalias() = climb.lift * part.tangent.middleRows(node * shape_.maps() * inner, shape_.maps() * inner);
       subtract_own_tangent(values, climb.inverse, climb.moving_out, tangent);
       coarse_tangent.middleRows(node * inner, inner) = tangent.topRows(inner);
 

@@ -30,8 +30,8 @@ struct NodeForm {
 
 // Nodes of one level with the same weights below.
 struct NodeKind {
-  Index first;                         // the first such node of its level
-  std::array<int, most_maps> children; // their kinds; of leaves nothing
+  Index first;                          // the first such node of its level
+  std::array<int, most_maps> children;  // their kinds; of leaves nothing
 };
 
 // A node with something kept at it or below. kept: which of its details; what they follow the node's polygon by, and
@@ -91,11 +91,11 @@ class TreeForms {
   bool closed_;
   Eigen::VectorXd weight_;
   RowMatrix filter_;
-  std::vector<NodeKind> kinds_;       // finest level first
-  std::vector<int> first_kind_;   // a level each
-  std::vector<NodeForm> forms_;   // of the kinds
-  std::vector<Branch> branches_;  // coarsest level first
-  std::vector<int> first_branch_; // a level each, and the end
+  std::vector<NodeKind> kinds_;    // finest level first
+  std::vector<int> first_kind_;    // a level each
+  std::vector<NodeForm> forms_;    // of the kinds
+  std::vector<Branch> branches_;   // coarsest level first
+  std::vector<int> first_branch_;  // a level each, and the end
   Index kept_count_ = 0;
   std::vector<Eigen::VectorXd> full_;
   Eigen::MatrixXd root_inverse_;

@@ -7,8 +7,8 @@
 namespace ifsm::core {
 namespace {
 
-constexpr double dependent = 1e-9;  // of what is full: a detail that the free values can imitate brings nothing
-constexpr Index roots_wanted = 64;  // subtrees that share the threads
+constexpr double dependent = 1e-9;     // of what is full: a detail that the free values can imitate brings nothing
+constexpr Index roots_wanted = 64;     // subtrees that share the threads
 constexpr Index worth_sharing = 4096;  // nodes: fewer are done before threads are awake
 
 // A node on the way down, and what is known of its polygon.
@@ -72,9 +72,8 @@ class Way {
 
   // The score of a detail that is not kept: its squared residual correlation over what of its own form is left free.
   // cross: its joint form with the free values, a value of each lane `free` apart.
-  void score(const Node& node, Index j, double own, Index free, const double* cross, const double* covered,
-             const double* value) {
-    const Index detail = first_detail(node) + j;
+  void score(const Node& node, Index detail, Index j, double own, Index free, const double* cross,
+             const double* covered, const double* value) {
     double left = own, squares = 0;
     for (Index i = 0; i < free; ++i) left -= cross[i] * covered[i];
     if (!(left > dependent * forms_.full(node.level)(n_ + j))) return;
@@ -89,6 +88,7 @@ class Way {
   // Nothing is kept here: score_branch() without its free values, by hand, since nearly all nodes are such.
   void score_plain(const Node& node, Children& out) {
     const Eigen::MatrixXd& joint = forms_.form_of_kind(node.kind).joint;
+    const Index first = first_detail(node);
     for (Index j = 0; j < d_; ++j) {
       const double* const cross = joint.data() + j * rows_;
       for (Index i = 0; i < n_; ++i) {
@@ -96,7 +96,7 @@ class Way {
         for (Index k = 0; k < n_; ++k) sum += node.spread[i * n_ + k] * cross[k];
         beside_[static_cast<std::size_t>(i)] = sum;
       }
-      score(node, j, joint(n_ + j, j), n_, cross, beside_.data(), node.polygon);
+      score(node, first + j, j, joint(n_ + j, j), n_, cross, beside_.data(), node.polygon);
     }
     if (node.level + 1 == forms_.levels()) return;
     const RowMatrix& filter = forms_.filter();
@@ -106,19 +106,19 @@ class Way {
         for (Index c = 0; c < rows_; ++c)
           lifted_[static_cast<std::size_t>(i * rows_ + c)] += node.spread[i * n_ + k] * filter(k, c);
     for (int child = 0; child < shape_.maps(); ++child) {
-      const Index first = first_column(shape_, child);
+      const Index column = first_column(shape_, child);
       double* const spread = out.spread.data() + child * n_ * n_;
       for (Index a = 0; a < n_; ++a)
         for (Index b = 0; b <= a; ++b) {
           double sum = 0;
           for (Index k = 0; k < n_; ++k)
-            sum += filter(k, first + a) * lifted_[static_cast<std::size_t>(k * rows_ + first + b)];
+            sum += filter(k, column + a) * lifted_[static_cast<std::size_t>(k * rows_ + column + b)];
           spread[a * n_ + b] = spread[b * n_ + a] = sum;
         }
       for (Index lane = 0; lane < lanes_; ++lane)
         for (Index a = 0; a < n_; ++a) {
           double sum = 0;
-          for (Index k = 0; k < n_; ++k) sum += filter(k, first + a) * node.polygon[lane * n_ + k];
+          for (Index k = 0; k < n_; ++k) sum += filter(k, column + a) * node.polygon[lane * n_ + k];
           out.polygon[static_cast<std::size_t>((child * lanes_ + lane) * n_ + a)] = sum;
         }
     }
@@ -129,6 +129,7 @@ class Way {
     const Branch& branch = forms_.branch(node.branch);
     const RowMatrix& filter = forms_.filter();
     const Eigen::MatrixXd& joint = branch.form.joint;
+    const Index first = first_detail(node);
     const auto count = static_cast<Index>(branch.kept.size()), free = n_ + count;
     const Eigen::Map<const Eigen::MatrixXd> spread(node.spread, n_, n_), polygon(node.polygon, n_, lanes_);
     Eigen::MatrixXd covariance(free, free), passed(free, rows_), cross(free, d_), value(free, lanes_);
@@ -150,10 +151,10 @@ class Way {
     }
     const Eigen::MatrixXd covered = covariance * cross;
     for (Index j = 0; j < d_; ++j)
-      score(node, j, joint(n_ + j, j), free, cross.col(j).data(), covered.col(j).data(), value.data());
+      score(node, first + j, j, joint(n_ + j, j), free, cross.col(j).data(), covered.col(j).data(), value.data());
     for (Index a = 0; a < count; ++a) {
       const double variance = covariance(n_ + a, n_ + a);
-      score_[static_cast<std::size_t>(first_detail(node) + branch.kept[static_cast<std::size_t>(a)])] =
+      score_[static_cast<std::size_t>(first + branch.kept[static_cast<std::size_t>(a)])] =
           variance > 0 ? value.row(n_ + a).squaredNorm() / variance : 0.0;
     }
     for (int c = 0; c < shape_.maps(); ++c) {
@@ -187,7 +188,7 @@ std::vector<double> scores_of(const TreeForms& forms, const Solution& solution,
   std::vector<double> score(static_cast<std::size_t>(forms.details()), 0.0);
   const Shape& shape = forms.shape();
   const Eigen::MatrixXd control = solution.control;
-  const Node root{0,  0, forms.root_kind(), forms.root_branch(), forms.root_inverse().data(), control.data()};
+  const Node root{0, 0, forms.root_kind(), forms.root_branch(), forms.root_inverse().data(), control.data()};
   int cut = forms.levels();
   if (shape.first_node(forms.levels()) >= worth_sharing)
     for (cut = 0; shape.nodes(cut) < roots_wanted;) ++cut;

@@ -11,7 +11,7 @@
 namespace ifsm::core {
 namespace {
 
-constexpr Index nodes_together = 1024;       // of a level, in one chunk
+constexpr Index nodes_together = 1024;      // of a level, in one chunk
 constexpr Index places_together = 1 << 14;  // of the finest line
 
 std::vector<int> columns(int first, int count) {

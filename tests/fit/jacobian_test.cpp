@@ -19,8 +19,8 @@ struct Case {
   bool closed;
 };
 
-const Case cases[] = {
-    {2, 2, 1, 33, false}, {3, 2, 2, 40, false}, {5, 2, 2, 65, true}, {4, 3, 3, 50, false}, {3, 4, 4, 90, true}};
+const Case cases[] = {{2, 2, 1, 33, false}, {3, 2, 2, 40, false}, {5, 2, 2, 65, true},
+                      {4, 3, 3, 50, false}, {3, 4, 4, 90, true},  {3, 2, 1, 9000, false}};  // in several blocks
 
 // A model, its finest line, and an R near de Casteljau's with no symmetry left.
 struct Setting {
