@@ -23,14 +23,15 @@ constexpr int exchange_trials = 8;
 struct State {
   Kept kept;
   Solution solution;
+  Points curve;  // the finest line
   Pulls pulls;
 };
 
 Kept kept_in(const Model& model) {
   Kept kept;
   for (int level = 0; level < model.levels(); ++level) {
-    const auto rows = model.details(level).matrix().rowwise();
-    for (const auto row : rows) kept.push_back(row.isZero(0) ? 0 : 1);
+    const auto details = model.details(level).matrix();
+    for (Index i = 0; i < details.rows(); ++i) kept.push_back(details.row(i).isZero(0) ? 0 : 1);
   }
   return kept;
 }
@@ -40,26 +41,19 @@ Index count_of(const Kept& kept) { return static_cast<Index>(std::ranges::count(
 class Approach {
  public:
   Approach(const Model& model, Distance distance, const Watch& watch)
-      : model_(model),
-        filter_(model.filter().matrix()),
-        curve_(model, distance),
-        solver_(model.shape(), model.levels(), model.closed(), curve_.pulled()),
-        watch_(watch) {}
+      : model_(model), zeros_(zero_details(model)), curve_(model, distance), watch_(watch) {}
 
   // Solved by least squares against the samples, as resolve() does.
-  State start(const Kept& kept) {
-    solver_.reweigh(sample_weights(model_));
-    return state(kept, solved(solver_, filter_, kept, curve_.data(), watch_).solution);
-  }
+  State start(const Kept& kept) const { return solved_by(solver(sample_weights(model_), kept), kept, curve_.data()); }
 
   // Of all states that were met, the nearest.
-  State values(State state) {
+  State values(State state) const {
     State best = state;
     for (const double power : powers) settle(state, power, settling_steps, best);
     return finished(std::move(best));
   }
 
-  State choice(State state) {
+  State choice(State state) const {
     State best = state;
     for (const double power : powers) {
       settle(state, power, settling_steps, best);
@@ -69,29 +63,41 @@ class Approach {
     return finished(std::move(best));
   }
 
-  ModelPtr model_of(const State& state) const { return solved_model(model_.parts(), state.solution); }
-  State state_of(const Model& sketch) {
-    Solution solution{lanes_of(sketch.parts().polygon), Lanes(model_.details_total(), model_.dimension()),
-                      lanes_of(line(sketch, sketch.levels()))};
-    Index first = 0;
+  ModelPtr model_of(const State& state) const {
+    return solved_model(model_.parts(), zeros_, state.kept, state.solution);
+  }
+  State state_of(const Model& sketch) const {
+    State state{kept_in(sketch), {sketch.parts().polygon.matrix(), {}}, line(sketch, sketch.levels()), {}};
+    state.solution.values = Lanes(count_of(state.kept), sketch.dimension());
+    auto flag = state.kept.begin();
+    Index value = 0;
     for (int level = 0; level < sketch.levels(); ++level) {
       const auto details = sketch.details(level).matrix();
-      solution.details.middleRows(first, details.rows()) = details;
-      first += details.rows();
+      for (Index i = 0; i < details.rows(); ++i)
+        if (*flag++) state.solution.values.row(value++) = details.row(i);
     }
-    return state(kept_in(sketch), std::move(solution));
+    state.pulls = curve_.pulls(state.curve);
+    return state;
   }
 
  private:
-  State finished(State state) {
+  State finished(State state) const {
     State best = state;
     for (const double power : last_powers) settle(state, power, settling_steps, best);
     return best;
   }
 
-  State state(Kept kept, Solution solution) const {
-    Pulls pulls = curve_.pulls(solution.curve);
-    return {std::move(kept), std::move(solution), std::move(pulls)};
+  TreeSolver solver(Eigen::VectorXd weights, const Kept& kept) const {
+    TreeSolver solver(model_.shape(), model_.levels(), model_.closed(), std::move(weights));
+    solver.factor(model_.filter().matrix(), kept, watch_);
+    return solver;
+  }
+
+  State solved_by(const TreeSolver& solver, const Kept& kept, const Points& target) const {
+    State state{kept, solver.solve(target, watch_), {}, {}};
+    state.curve = solver.curve(state.solution, watch_);
+    state.pulls = curve_.pulls(state.curve);
+    return state;
   }
 
   // Reweighted least squares for the p-norm: the weights that make its gradient that of a weighted square.
@@ -106,33 +112,30 @@ class Approach {
     return pulls.largest * std::pow((pulls.distance / pulls.largest).array().pow(power).mean(), 1 / power);
   }
 
-  Solution nearest_to(const Pulls& pulls, const Kept& kept, double power) {
-    solver_.reweigh(weights(pulls, power));
-    return solved(solver_, filter_, kept, pulls.target, watch_).solution;
+  std::vector<double> scores(const State& state, double power) const {
+    const TreeSolver weighted = solver(weights(state.pulls, power), state.kept);
+    return weighted.scores(state.pulls.target, weighted.solve(state.pulls.target, watch_), watch_);
   }
 
-  std::vector<double> scores(const State& state, double power) {
-    return solver_.scores(nearest_to(state.pulls, state.kept, power));
-  }
-
-  State after(const State& state, Kept kept, double power) {
-    Solution solution = nearest_to(state.pulls, kept, power);
-    return this->state(std::move(kept), std::move(solution));
+  State after(const State& state, const Kept& kept, double power) const {
+    return solved_by(solver(weights(state.pulls, power), kept), kept, state.pulls.target);
   }
 
   // Steps of 2 / (p - 1) of the way to the weighted solution, halved while the norm does not fall: whole ones overshoot
   // (the norm's Hessian is p - 1 times the weighted square's). Returns the norm.
-  double settle(State& state, double power, int steps, State& best) {
+  double settle(State& state, double power, int steps, State& best) const {
     double now = norm(state.pulls, power);
     for (int step = 0; step < steps; ++step) {
-      const Solution aim = nearest_to(state.pulls, state.kept, power);
+      const TreeSolver weighted = solver(weights(state.pulls, power), state.kept);
+      const Solution aim = weighted.solve(state.pulls.target, watch_);
+      const Points there = weighted.curve(aim, watch_);
       const double before = now;
       double part = std::min(1.0, 2 / (power - 1));
       for (int halving = 0; halving < 4 && now == before; ++halving, part /= 2) {
-        State next = this->state(state.kept, towards(state.solution, aim, part));
-        const double there = norm(next.pulls, power);
-        if (!(there < now)) continue;
-        now = there;
+        State next = towards(state, aim, there, part);
+        const double nearer = norm(next.pulls, power);
+        if (!(nearer < now)) continue;
+        now = nearer;
         state = std::move(next);
       }
       if (state.pulls.largest < best.pulls.largest) best = state;
@@ -141,14 +144,19 @@ class Approach {
     return now;
   }
 
-  static Solution towards(const Solution& from, const Solution& to, double part) {
-    const auto between = [&](const Lanes& a, const Lanes& b) -> Lanes { return a + part * (b - a); };
-    return {between(from.control, to.control), between(from.details, to.details), between(from.curve, to.curve)};
+  // Part of the way to a solution and its curve.
+  State towards(const State& from, const Solution& aim, const Points& curve, double part) const {
+    State next{from.kept, from.solution, from.curve, {}};
+    next.solution.control += part * (aim.control - from.solution.control);
+    next.solution.values += part * (aim.values - from.solution.values);
+    next.curve.matrix() += part * (curve.matrix() - from.curve.matrix());
+    next.pulls = curve_.pulls(next.curve);
+    return next;
   }
 
   // Subspace pursuit, as pursued() does it, for this norm: with more details than asked, then without those that are
   // missed least.
-  void exchange(State& state, double power, State& best) {
+  void exchange(State& state, double power, State& best) const {
     const Index count = count_of(state.kept), all = static_cast<Index>(state.kept.size());
     if (count == 0 || count == all) return;
     double now = norm(state.pulls, power);
@@ -170,14 +178,14 @@ class Approach {
     }
   }
 
-  Kept most_wished(const State& state, double power, Index more) {
+  Kept most_wished(const State& state, double power, Index more) const {
     std::vector<double> wish = scores(state, power);
     for (std::size_t i = 0; i < wish.size(); ++i)
       if (state.kept[i]) wish[i] = std::numeric_limits<double>::infinity();
     return largest(wish, count_of(state.kept) + more);
   }
 
-  Kept least_missed(const State& state, double power, Index fewer) {
+  Kept least_missed(const State& state, double power, Index fewer) const {
     std::vector<double> worth = scores(state, power);
     for (std::size_t i = 0; i < worth.size(); ++i)
       if (!state.kept[i]) worth[i] = -1;
@@ -185,9 +193,8 @@ class Approach {
   }
 
   const Model& model_;
-  const RowMatrix& filter_;
+  std::vector<PointsPtr> zeros_;
   PullingCurve curve_;
-  TreeSolver solver_;
   const Watch& watch_;
 };
 

@@ -39,17 +39,19 @@ CurveProblem::CurveProblem(const std::vector<FitCurve>& curves, const FilterPtr&
         .with(static_cast<double>(options.samples.size()))
         .needs(static_cast<Index>(curves.size()));
   const FitSamples nothing;
+  lines_.reserve(curves.size());  // they are pointed to
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    models_.push_back(exact(c, start));
-    lines_.push_back(line(*models_.back(), levels_));
+    const ModelPtr model = exact(c, start);
+    blanks_.push_back(model->parts());
+    blanks_.back().details.clear();
+    lines_.push_back(line(*model, levels_));
+    neighbourhoods_.push_back(Neighbourhood::of(*model, lines_.back(), farthest_reach));
     const std::string prefix = "samples[" + std::to_string(c) + "].";
     targets_.push_back(make_target(curves[c], options.samples.empty() ? nothing : options.samples[c],
-                                   options.parameters, *models_.back(), prefix));
+                                   options.parameters, *model, prefix));
     require_consistent(targets_.back(), ConstraintSet(targets_.back(), shape_, levels_), start->matrix(), prefix,
                        watch);
   }
-  for (std::size_t c = 0; c < curves.size(); ++c)
-    neighbourhoods_.push_back(Neighbourhood::of(*models_[c], lines_[c], farthest_reach));
 }
 
 int CurveProblem::coarsest_level() const {
@@ -81,7 +83,7 @@ CurveError CurveProblem::error(const CurveState& state, const Loss& loss, int le
     CurveTerm term{&target,
                    ConstraintSet(target, shape_, levels),
                    positions_of(shape_, levels, state.parameters[c]),
-                   state.controls.empty() ? Lanes(models_[c]->parts().polygon.matrix()) : state.controls[c],
+                   state.controls.empty() ? Lanes(blanks_[c].polygon.matrix()) : state.controls[c],
                    {},
                    0};
     if (loss.robust())
@@ -111,14 +113,15 @@ CurveState CurveProblem::judged(CurveState state, const Loss& loss, int levels) 
   for (std::size_t c = 0; c < targets_.size(); ++c) {
     const Target& target = targets_[c];
     const Lanes& control = state.controls[c];
-    auto& squared = state.squared.emplace_back(static_cast<std::size_t>(target.count()));
+    auto& squared = state.squared.emplace_back(static_cast<std::size_t>(loss.robust() ? target.count() : 0));
     Eigen::RowVectorXd error(target.dimension);
     CurveWalk(shape_, levels, state.matrix, watch_)
         .basis(positions_of(shape_, levels, state.parameters[c]), [&](Index k, const double* basis) {
           error.noalias() = Eigen::Map<const Eigen::RowVectorXd>(basis, n) * control;
           error -= target.samples.row(k);
-          squared[static_cast<std::size_t>(k)] = target.squared(k, error);
-          state.cost += loss(squared[static_cast<std::size_t>(k)]).rho;
+          const double square = target.squared(k, error);
+          if (loss.robust()) squared[static_cast<std::size_t>(k)] = square;
+          state.cost += loss(square).rho;
         });
   }
   return state;
@@ -143,12 +146,13 @@ ModelPtr CurveProblem::exact(std::size_t curve, const FilterPtr& filter) const {
   return analyze(filter, curves_[curve].samples, curves_[curve].closed, levels_);
 }
 
-Sketch CurveProblem::sketch(std::size_t curve, const FilterPtr& filter, const CurveState& state) const {
-  ModelParts parts = models_[curve]->parts();
+Sketch CurveProblem::sketch(std::size_t curve, const FilterPtr& filter, const CurveState& state,
+                            std::span<const PointsPtr> zeros) const {
+  ModelParts parts = blanks_[curve];
   parts.filter = filter;
   parts.polygon.matrix() = state.controls[curve];
   close_ends(parts);
-  for (auto& level : parts.details) level = std::make_shared<Points>(level->dimension(), level->count());
+  parts.details.assign(zeros.begin(), zeros.end());
   const Target& target = targets_[curve];
   const int n = shape_.control_points();
   double sum = 0, most = 0;

@@ -17,7 +17,7 @@ struct CurveState {
   RowMatrix matrix;
   std::vector<Lanes> controls;                  // from the centre
   std::vector<std::vector<double>> parameters;  // of the samples
-  std::vector<std::vector<double>> squared;     // residuals of the samples, weighted
+  std::vector<std::vector<double>> squared;     // residuals of the samples, weighted; empty by plain squares
   double cost = 0;                              // of the loss that judged it
 };
 
@@ -29,7 +29,6 @@ class CurveProblem {
   const Shape& shape() const { return shape_; }
   int levels() const { return levels_; }
   int coarsest_level() const;
-  const std::vector<ModelPtr>& models() const { return models_; }
   const std::vector<Target>& targets() const { return targets_; }
   bool admits(const RowMatrix& matrix) const;
   MinimiseOptions minimise_options(const char* stage) const;
@@ -47,7 +46,9 @@ class CurveProblem {
 
   double median_residual(const CurveState& state) const;
   // Distances between samples and the curve, unweighted.
-  Sketch sketch(std::size_t curve, const FilterPtr& filter, const CurveState& state) const;
+  // zeros: a level each, of no details, which sketches share.
+  Sketch sketch(std::size_t curve, const FilterPtr& filter, const CurveState& state,
+                std::span<const PointsPtr> zeros) const;
   ModelPtr exact(std::size_t curve, const FilterPtr& filter) const;
 
  private:
@@ -55,7 +56,7 @@ class CurveProblem {
   Shape shape_;
   const Watch& watch_;
   int levels_ = 0;
-  std::vector<ModelPtr> models_;  // exact, under the start
+  std::vector<ModelParts> blanks_;  // of the exact models under the start, without their details
   std::vector<Points> lines_;
   std::vector<Neighbourhood> neighbourhoods_;
   std::vector<Target> targets_;

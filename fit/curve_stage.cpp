@@ -119,7 +119,9 @@ class CurveFit {
     return with_complement(problem_.shape(), start_->matrix().topRows(problem_.shape().control_points()));
   }
   RowMatrix collage_start() const {
-    return collage(problem_.models(), [this](const RowMatrix& matrix) { return problem_.admits(matrix); });
+    std::vector<ModelPtr> models;
+    for (std::size_t c = 0; c < problem_.targets().size(); ++c) models.push_back(problem_.exact(c, start_));
+    return collage(models, [this](const RowMatrix& matrix) { return problem_.admits(matrix); });
   }
 
   FitResult result(const CurveState& start, const CurveState& best) {
@@ -130,7 +132,9 @@ class CurveFit {
     const int n = problem_.shape().control_points();
     for (std::size_t c = 0; c < problem_.targets().size(); ++c) {
       result.models.push_back(problem_.exact(c, result.filter));
-      result.budgets.push_back({{n, 0, problem_.sketch(c, start_, start), problem_.sketch(c, result.filter, best)}});
+      const auto zeros = zero_details(*result.models.back());
+      result.budgets.push_back(
+          {{n, 0, problem_.sketch(c, start_, start, zeros), problem_.sketch(c, result.filter, best, zeros)}});
       result.parameters.push_back(best.parameters[c]);
     }
     const bool unchanged = !(best.cost < start.cost);

@@ -20,53 +20,63 @@ class FilterFit {
  public:
   FilterFit(const std::vector<FitCurve>& curves, FilterPtr start, const FilterOptions& options, Watch& watch)
       : curves_(curves), options_(options), watch_(watch), start_(std::move(start)), shape_(start_->shape()) {
+    lines_.reserve(curves_.size());  // they are pointed to
     for (const FitCurve& curve : curves_) {
-      models_.push_back(analyze(start_, curve.samples, curve.closed));
-      lines_.push_back(line(*models_.back(), models_.back()->levels()));
+      const ModelPtr exact = analyze(start_, curve.samples, curve.closed);
+      levels_.push_back(exact->levels());
+      lines_.push_back(line(*exact, exact->levels()));
+      weights_.push_back(sample_weights(*exact));
+      neighbourhoods_.push_back(Neighbourhood::of(*exact, lines_.back(), farthest_reach));
     }
-    for (std::size_t c = 0; c < curves_.size(); ++c)
-      neighbourhoods_.push_back(Neighbourhood::of(*models_[c], lines_[c], farthest_reach));
   }
 
   FitResult run() {
-    Truncation objective(shape_, truncated(), watch_);
+    FitResult result;
+    const Minimised found = minimised(result);
+    lines_.clear();  // models take their place
+    return told(std::move(result), found);
+  }
+
+ private:
+  int kept(std::size_t curve) const { return std::min(options_.kept_levels, levels_[curve]); }
+
+  Minimised minimised(FitResult& result) {
+    std::vector<TruncatedCurve> truncated;
+    for (std::size_t c = 0; c < curves_.size(); ++c)
+      truncated.push_back({&lines_[c], levels_[c], kept(c), std::move(weights_[c])});
+    Truncation objective(shape_, std::move(truncated), watch_);
     const MinimiseOptions step{options_.iterations,
                                options_.tolerance,
                                std::max(Limits{}.condition, 2 * start_->condition()),
                                "filter",
                                [this](const RowMatrix& matrix) { return stay_near(shape_, matrix, neighbourhoods_); },
                                Part::details};
-    const Minimised found = minimise(shape_, objective, start_->matrix(), step, watch_.part(0, 0.95));
-    return result(objective, found);
+    Minimised found = minimise(shape_, objective, start_->matrix(), step, watch_.part(0, 0.95));
+    result.certainty = std::make_shared<Certainty>(certainty(objective, found.matrix));
+    return found;
   }
 
- private:
-  int kept(std::size_t curve) const { return std::min(options_.kept_levels, models_[curve]->levels()); }
-
-  std::vector<TruncatedCurve> truncated() const {
-    std::vector<TruncatedCurve> truncated;
-    for (std::size_t c = 0; c < curves_.size(); ++c)
-      truncated.push_back({&lines_[c], models_[c]->levels(), kept(c), sample_weights(*models_[c])});
-    return truncated;
-  }
-
-  Sketch sketch(std::size_t curve, const ModelPtr& model) const {
-    ModelPtr kept_model = keep(*model, first_levels(*model, kept(curve)));
+  Sketch sketch(std::size_t curve, const Model& model, const std::vector<PointsPtr>& zeros) const {
+    ModelPtr kept_model = keep(model, first_levels(model, kept(curve)), zeros);
     const Points now = samples(*kept_model);
     const Eigen::VectorXd squares = (now.matrix() - curves_[curve].samples.matrix()).rowwise().squaredNorm();
     return {std::move(kept_model), std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())};
   }
 
-  FitResult result(Truncation& objective, const Minimised& found) {
-    FitResult result;
+  FitResult told(FitResult result, const Minimised& found) {
     result.stage = Stage::filter;
     const bool unchanged = found.matrix == start_->matrix();
     result.filter = unchanged ? start_ : std::make_shared<Filter>(shape_, found.matrix);
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       const Index details = shape_.first_node(kept(c)) * shape_.details_per_node();
-      result.models.push_back(analyze(result.filter, curves_[c].samples, curves_[c].closed));
+      ModelPtr exact = analyze(start_, curves_[c].samples, curves_[c].closed);
+      const auto zeros = zero_details(*exact);
+      Sketch start = sketch(c, *exact, zeros);
+      exact = nullptr;
+      exact = analyze(result.filter, curves_[c].samples, curves_[c].closed);
       result.budgets.push_back(
-          {{details + shape_.control_points(), details, sketch(c, models_[c]), sketch(c, result.models.back())}});
+          {{details + shape_.control_points(), details, std::move(start), sketch(c, *exact, zeros)}});
+      result.models.push_back(std::move(exact));
     }
     result.reason = unchanged ? FitReason::start_best : found.converged ? FitReason::converged : FitReason::iterations;
     result.iterations = found.iterations;
@@ -74,7 +84,6 @@ class FilterFit {
     result.final_cost = found.value;
     result.start_condition = start_->condition();
     result.final_condition = result.filter->condition();
-    result.certainty = std::make_shared<Certainty>(certainty(objective, found.matrix));
     watch_.report(1.0, "done");
     return result;
   }
@@ -103,8 +112,9 @@ class FilterFit {
   Watch& watch_;
   FilterPtr start_;
   Shape shape_;
-  std::vector<ModelPtr> models_;
+  std::vector<int> levels_;
   std::vector<Points> lines_;
+  std::vector<Eigen::VectorXd> weights_;
   std::vector<Neighbourhood> neighbourhoods_;
 };
 

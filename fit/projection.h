@@ -15,7 +15,7 @@ namespace ifsm::core {
 // One sketch of one curve; its squared error counts by `weight`.
 struct ProjectedSketch {
   TreeSolver* solver;
-  const Lanes* data;  // the finest line
+  const Points* data;  // the finest line
   int levels;
   Kept kept;
   double weight;

@@ -9,9 +9,9 @@ namespace ifsm::core {
 namespace {
 
 // A ring's last place is its first one.
-Points once(const Lanes& line, bool closed) {
-  Points points(line.cols(), line.rows() - (closed ? 1 : 0));
-  points.matrix() = line.topRows(points.count());
+Points once(const Points& line, bool closed) {
+  Points points(line.dimension(), line.count() - (closed ? 1 : 0));
+  points.matrix() = line.matrix().topRows(points.count());
   return points;
 }
 
@@ -27,36 +27,37 @@ Eigen::VectorXd pulled_places(const Model& model, Distance distance) {
 PullingCurve::PullingCurve(const Model& model, Distance distance)
     : distance_(distance),
       closed_(model.closed()),
-      data_(lanes_of(line(model, model.levels()))),
+      data_(line(model, model.levels())),
       pulled_(pulled_places(model, distance)),
       points_(once(data_, closed_)),
       polyline_(points_, closed_) {}
 
-Pulls PullingCurve::pulls(const Lanes& line) const {
+Pulls PullingCurve::pulls(const Points& line) const {
   return distance_ == Distance::hausdorff ? to_polyline(line) : to_samples(line);
 }
 
-Pulls PullingCurve::to_samples(const Lanes& line) const {
-  Eigen::VectorXd distance = (data_ - line).rowwise().norm().cwiseProduct(pulled_);
+Pulls PullingCurve::to_samples(const Points& line) const {
+  Eigen::VectorXd distance = (data_.matrix() - line.matrix()).rowwise().norm().cwiseProduct(pulled_);
   const double largest = distance.maxCoeff();
   return {data_, std::move(distance), largest};
 }
 
-Pulls PullingCurve::to_polyline(const Lanes& line) const {
+Pulls PullingCurve::to_polyline(const Points& line) const {
   const Points sketch = once(line, closed_);
   const Polyline polyline(sketch, closed_);
   const Nearest there = nearest(polyline_, sketch), back = nearest(polyline, points_);
-  Pulls found{line, Eigen::VectorXd::Zero(line.rows()), 0};
-  found.target.topRows(sketch.count()) = there.points.matrix();
+  Pulls found{line, Eigen::VectorXd::Zero(line.count()), 0};
+  auto target = found.target.matrix();
+  target.topRows(sketch.count()) = there.points.matrix();
   for (Index k = 0; k < sketch.count(); ++k) found.distance(k) = there.distances[static_cast<std::size_t>(k)];
   for (Index s = 0; s < points_.count(); ++s) {
     const double asked = back.distances[static_cast<std::size_t>(s)];
     const Index place = std::lround(polyline.position(back.parameters[static_cast<std::size_t>(s)])) % sketch.count();
     if (!(asked > found.distance(place))) continue;
     found.distance(place) = asked;
-    found.target.row(place) = line.row(place) + points_.matrix().row(s) - back.points.matrix().row(s);
+    target.row(place) = line.matrix().row(place) + points_.matrix().row(s) - back.points.matrix().row(s);
   }
-  if (closed_) found.target.row(line.rows() - 1) = found.target.row(0);
+  if (closed_) target.row(line.count() - 1) = target.row(0);
   found.largest = found.distance.maxCoeff();
   return found;
 }

@@ -8,7 +8,7 @@
 namespace ifsm::core {
 
 struct Pulls {
-  Lanes target;
+  Points target;
   Eigen::VectorXd distance;  // 0 where nothing pulls
   double largest;
 };
@@ -21,20 +21,19 @@ class PullingCurve {
   // `model` is joined.
   PullingCurve(const Model& model, Distance distance);
 
-  Pulls pulls(const Lanes& line) const;
+  Pulls pulls(const Points& line) const;
 
   // The curve's own finest line, and 1 for each place that is pulled.
-  const Lanes& data() const { return data_; }
+  const Points& data() const { return data_; }
   const Eigen::VectorXd& pulled() const { return pulled_; }
 
  private:
-  Points points_of(const Lanes& line) const;
-  Pulls to_samples(const Lanes& line) const;
-  Pulls to_polyline(const Lanes& line) const;
+  Pulls to_samples(const Points& line) const;
+  Pulls to_polyline(const Points& line) const;
 
   Distance distance_;
   bool closed_;
-  Lanes data_;
+  Points data_;
   Eigen::VectorXd pulled_;
   Points points_;  // of the curve, each once
   Polyline polyline_;

@@ -16,17 +16,24 @@ constexpr double scale_of_error = 0.5;  // ε over the root of squared error per
 
 }  // namespace
 
-Sketchbook::Job::Job(ModelPtr model)
-    : start(std::move(model)),
-      line(core::line(*start, start->levels())),
-      data(lanes_of(line)),
-      solver(start->shape(), start->levels(), start->closed(), sample_weights(*start)) {}
+Sketchbook::Job::Job(const Model& start)
+    : line(core::line(start, start.levels())),
+      levels(start.levels()),
+      blank(start.parts()),
+      placement(start.placement()),
+      solver(start.shape(), start.levels(), start.closed(), sample_weights(start)) {
+  blank.details.clear();
+}
 
 Sketchbook::Sketchbook(const std::vector<FitCurve>& curves, FilterPtr start, std::vector<std::vector<Index>> budgets,
                        const Limits& limits, const Watch& watch)
     : curves_(curves), start_(std::move(start)), budgets_(std::move(budgets)), limits_(limits), watch_(watch) {
-  for (const FitCurve& curve : curves_) jobs_.emplace_back(analyze(start_, curve.samples, curve.closed));
-  for (const Job& job : jobs_) neighbourhoods_.push_back(Neighbourhood::of(*job.start, job.line, limits_.reach));
+  jobs_.reserve(curves_.size());  // their lines are pointed to
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
+    const ModelPtr exact = model(c, start_);
+    const Job& job = jobs_.emplace_back(*exact);
+    neighbourhoods_.push_back(Neighbourhood::of(*exact, job.line, limits_.reach));
+  }
 }
 
 template <class Body>
@@ -45,7 +52,7 @@ Sketches Sketchbook::most_significant(const RowMatrix& matrix) {
     const ModelPtr exact = model(c, filter);
     for (const Index budget : budgets_[c])
       sketches.choices[c].push_back(
-          solved(jobs_[c].solver, matrix, core::most_significant(*exact, details(budget)), jobs_[c].data, watch_));
+          solved(jobs_[c].solver, matrix, core::most_significant(*exact, details(budget)), jobs_[c].line, watch_));
   });
   return sketches;
 }
@@ -54,7 +61,7 @@ Sketches Sketchbook::best(const RowMatrix& matrix, int trials) {
   Sketches sketches = most_significant(matrix);
   each_curve([&](std::size_t c) {
     for (Choice& choice : sketches.choices[c])
-      choice = best_choice(jobs_[c].solver, matrix, choice.kept, jobs_[c].data, trials, watch_);
+      choice = best_choice(jobs_[c].solver, matrix, choice.kept, jobs_[c].line, trials, watch_);
   });
   return sketches;
 }
@@ -62,14 +69,14 @@ Sketches Sketchbook::best(const RowMatrix& matrix, int trials) {
 void Sketchbook::pursue(Sketches& sketches, int trials) {
   each_curve([&](std::size_t c) {
     for (Choice& choice : sketches.choices[c])
-      choice = pursued(jobs_[c].solver, sketches.matrix, std::move(choice), jobs_[c].data, trials, watch_);
+      choice = pursued(jobs_[c].solver, sketches.matrix, std::move(choice), jobs_[c].line, trials, watch_);
   });
 }
 
 // A squared error that is nothing but rounding: models promise 1e-12 of the diagonal at each sample.
 double Sketchbook::rounding(const Job& job) const {
-  const double of_a_sample = 1e-12 * job.start->parts().diagonal;
-  return static_cast<double>(job.start->placement().samples()) * of_a_sample * of_a_sample;
+  const double of_a_sample = 1e-12 * job.blank.diagonal;
+  return static_cast<double>(job.placement.samples()) * of_a_sample * of_a_sample;
 }
 
 double Sketchbook::judged(const Sketches& sketches) const {
@@ -87,9 +94,9 @@ bool Sketchbook::is_worse(std::size_t curve, const Choice& sketch, const Choice&
 
 // ε follows the error: half of it, for each value that is kept.
 double Sketchbook::scale(const Job& job, double squared_error, Index budget) const {
-  const Placement& placement = job.start->placement();
+  const Placement& placement = job.placement;
   const double density = static_cast<double>(placement.places()) / static_cast<double>(placement.samples());
-  const double least = 1e-12 * job.start->parts().diagonal;  // a curve without error has no scale of its own
+  const double least = 1e-12 * job.blank.diagonal;  // a curve without error has no scale of its own
   return std::max(scale_of_error * std::sqrt(squared_error * density / static_cast<double>(budget)),
                   std::max(least, 1e-150));
 }
@@ -97,7 +104,7 @@ double Sketchbook::scale(const Job& job, double squared_error, Index budget) con
 Minimised Sketchbook::made_sparse(const Sketches& plain, const MinimiseOptions& options, Watch watch) {
   std::vector<SparseCurve> scaled;
   for (std::size_t c = 0; c < curves(); ++c) {
-    SparseCurve& curve = scaled.emplace_back(SparseCurve{&jobs_[c].line, jobs_[c].start->levels(), {}});
+    SparseCurve& curve = scaled.emplace_back(SparseCurve{&jobs_[c].line, jobs_[c].levels, {}});
     for (std::size_t b = 0; b < budgets_[c].size(); ++b)
       curve.scales.push_back(scale(jobs_[c], plain.choices[c][b].squared_error, budgets_[c][b]));
   }
@@ -110,7 +117,7 @@ Minimised Sketchbook::made_sparse(const Sketches& plain, const MinimiseOptions& 
 std::vector<std::vector<double>> Sketchbook::weights(const Sketches& sketches) const {
   constexpr double share = 0.1;  // of the median error, added: a third of its RMS
   const auto scale = [&](std::size_t c) {
-    const double diagonal = jobs_[c].start->parts().diagonal;
+    const double diagonal = jobs_[c].blank.diagonal;
     return diagonal > 0 ? diagonal * diagonal * static_cast<double>(curves_[c].samples.count()) : 1;
   };
   std::map<Index, std::vector<double>> errors;  // of a budget, relative to the curves' sizes
@@ -133,7 +140,7 @@ Minimised Sketchbook::polished(const Sketches& sketches, const MinimiseOptions& 
   for (std::size_t c = 0; c < curves(); ++c)
     for (std::size_t b = 0; b < budgets_[c].size(); ++b)
       if (const Choice& choice = sketches.choices[c][b]; choice.squared_error > rounding(jobs_[c]))
-        held.push_back({&jobs_[c].solver, &jobs_[c].data, jobs_[c].start->levels(), choice.kept, weight[c][b]});
+        held.push_back({&jobs_[c].solver, &jobs_[c].line, jobs_[c].levels, choice.kept, weight[c][b]});
   Projection objective(shape(), std::move(held), watch_);
   return minimise(shape(), objective, sketches.matrix, options, std::move(watch));
 }

@@ -29,8 +29,9 @@ class Sketchbook {
   std::size_t curves() const { return jobs_.size(); }
   const std::vector<Index>& budgets(std::size_t curve) const { return budgets_[curve]; }
   Index details(Index budget) const { return budget - shape().control_points(); }
-  // The exact model of a curve under the starting filter, and under any.
-  const ModelPtr& start_model(std::size_t curve) const { return jobs_[curve].start; }
+  // What all models of a curve have in common: parts without details.
+  const ModelParts& blank(std::size_t curve) const { return jobs_[curve].blank; }
+  // The exact model of a curve under any filter.
   ModelPtr model(std::size_t curve, const FilterPtr& filter) const;
 
   // The most significant details, solved.
@@ -55,12 +56,13 @@ class Sketchbook {
  private:
   // A curve with its tree, and what is solved on it again and again.
   struct Job {
-    ModelPtr start;
     Points line;  // the finest line, from the centre: the same under every filter
-    Lanes data;
+    int levels;
+    ModelParts blank;  // of the model under the starting filter, without its details
+    Placement placement;
     TreeSolver solver;
 
-    explicit Job(ModelPtr model);
+    explicit Job(const Model& start);
   };
 
   // Calls body(curve) for every curve, curves sharing the threads.

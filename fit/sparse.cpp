@@ -93,10 +93,11 @@ class SparseFit {
     converged_ = found.converged;
   }
 
-  Sketch sketch(std::size_t curve, const FilterPtr& filter, const Choice& choice) {
-    ModelParts parts = book_.start_model(curve)->parts();
+  // Levels without details are the same in all sketches of a curve.
+  Sketch sketch(std::size_t curve, const FilterPtr& filter, const Choice& choice, const std::vector<PointsPtr>& zeros) {
+    ModelParts parts = book_.blank(curve);
     parts.filter = filter;
-    ModelPtr model = solved_model(std::move(parts), choice.solution);
+    ModelPtr model = solved_model(std::move(parts), zeros, choice.kept, choice.solution);
     const Points now = samples(*model);
     const Eigen::VectorXd squares = (now.matrix() - curves_[curve].samples.matrix()).rowwise().squaredNorm();
     return {std::move(model), std::sqrt(squares.mean()), std::sqrt(squares.maxCoeff())};
@@ -108,10 +109,11 @@ class SparseFit {
     result.filter = unchanged ? book_.start() : std::make_shared<Filter>(book_.shape(), best.matrix);
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       result.models.push_back(book_.model(c, result.filter));
+      const auto zeros = zero_details(*result.models.back());
       auto& rows = result.budgets.emplace_back();
       for (std::size_t b = 0; b < budgets_.size(); ++b)
-        rows.push_back({budgets_[b], book_.details(budgets_[b]), sketch(c, book_.start(), start.choices[c][b]),
-                        sketch(c, result.filter, best.choices[c][b])});
+        rows.push_back({budgets_[b], book_.details(budgets_[b]), sketch(c, book_.start(), start.choices[c][b], zeros),
+                        sketch(c, result.filter, best.choices[c][b], zeros)});
     }
     result.reason = unchanged ? FitReason::start_best : converged_ ? FitReason::converged : FitReason::iterations;
     result.iterations = iterations_;

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "curve/significance.h"
+#include "fit/blocks.h"
 
 namespace ifsm::core {
 namespace {
@@ -99,6 +100,23 @@ GainTangents gain_tangents(const Shape& shape, int levels, const RowMatrix& matr
 Sparsity::Sparsity(const Shape& shape, std::vector<SparseCurve> curves, const Watch& watch)
     : shape_(shape), curves_(std::move(curves)), watch_(watch), entries_(free_entries(shape)) {}
 
+// A subtree, or the top of the tree: the line that it stands on, which becomes the line of its root; and the tangents
+// of that line's inner points, a row each (of the finest line there are none: it does not move).
+struct Sparsity::Part {
+  int root, levels;
+  Eigen::MatrixXd line;
+  Lanes tangent;
+};
+
+// What the parts of a curve's tree share.
+struct Sparsity::Climb {
+  const SparseCurve& curve;
+  const RowMatrix& inverse;
+  GainTangents gains;
+  std::vector<int> moving_out;  // values of a node that move, ends being samples
+  Lanes lift;                   // by what its children's inner points move them
+};
+
 double Sparsity::value(const RowMatrix& matrix) {
   const RowMatrix inverse = inverse_of(shape_, matrix);
   std::vector<double> values(curves_.size());
@@ -114,46 +132,91 @@ void Sparsity::gather(const RowMatrix& matrix, Normal& normal) {
   std::vector<Normal> each(curves_.size(), Normal(static_cast<int>(entries_.size())));
   parallel_for(static_cast<Index>(curves_.size()), 0, [&](Index c) {
     const auto at = static_cast<std::size_t>(c);
-    gather_curve(curves_[at], matrix, inverse, each[at]);
+    gather(curves_[at], matrix, inverse, each[at]);
   });
   for (Normal& one : each) normal += one;
 }
 
 void Sparsity::rows(const RowMatrix& matrix, RowSink& sink) const {
   const RowMatrix inverse = inverse_of(shape_, matrix);
-  for (const SparseCurve& curve : curves_) gather_curve(curve, matrix, inverse, sink);
+  for (const SparseCurve& curve : curves_) {
+    const Climb climb = climb_of(curve, matrix, inverse);
+    this->climb(curve, curve.line->dimension() * static_cast<Index>(entries_.size()),
+                [&](Index groups, const Work& work) {
+                  for (Index group = 0; group < groups; ++group)
+                    work(group, [&](Part& part) { gather(climb, part, sink); });
+                });
+  }
+}
+
+// Up a curve's tree, the lowest levels first, cut into blocks; what they leave is a line again. No more of the tangents
+// is held than one block's and the roots'.
+void Sparsity::climb(const SparseCurve& curve, Index tangents, const Stage& stage) const {
+  const Index step = shape_.polygon_step(), inner = step - 1;
+  const auto finest = curve.line->matrix();
+  Eigen::MatrixXd line;
+  Lanes tangent;
+  for (int levels = curve.levels; levels > 0;) {
+    const Blocks blocks(shape_, levels);
+    const Index nodes = shape_.nodes(levels - blocks.level());
+    Eigen::MatrixXd roots(shape_.line_length(blocks.level()), finest.cols());
+    Lanes moved(inner * blocks.count(), tangents);
+    stage(blocks.groups(), [&](Index group, const Take& take) {
+      for (Index b = blocks.first(group); b < blocks.first(group + 1); ++b) {
+        Part part{blocks.level(), levels, {}, {}};
+        if (levels == curve.levels) {
+          part.line = finest.middleRows(b * nodes * step, nodes * step + 1);
+        } else {
+          part.line = line.middleRows(b * nodes * step, nodes * step + 1);
+          part.tangent = tangent.middleRows(b * nodes * inner, nodes * inner);
+        }
+        take(part);
+        roots.middleRows(b * step, step) = part.line.topRows(step);  // the last point is the next block's first
+        if (tangents > 0) moved.middleRows(b * inner, inner) = part.tangent;
+      }
+    });
+    roots.bottomRows(1) = finest.bottomRows(1);
+    line.swap(roots);
+    tangent.swap(moved);
+    levels = blocks.level();
+  }
 }
 
 double Sparsity::value_of(const SparseCurve& curve, const RowMatrix& matrix, const RowMatrix& inverse) const {
-  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows();
-  const GainTangents gains = gain_tangents(shape_, curve.levels, matrix, {});
+  const Climb climb{curve, inverse, gain_tangents(shape_, curve.levels, matrix, {}), {}, {}};
   double sum = 0;
-  Eigen::MatrixXd fine = curve.line->matrix();
-  for (int level = curve.levels - 1; level >= 0; --level) {
-    Eigen::MatrixXd coarse(shape_.line_length(level), fine.cols());
-    for (Index node = 0; node < shape_.nodes(level); ++node) {
+  this->climb(curve, 0, [&](Index groups, const Work& work) {
+    std::vector<double> sums(static_cast<std::size_t>(groups), 0.0);
+    parallel_for(groups, 0, [&](Index group) {
+      work(group, [&](Part& part) { sums[static_cast<std::size_t>(group)] += value_of(climb, part); });
+    });
+    sum = std::accumulate(sums.begin(), sums.end(), sum);
+  });
+  return sum;
+}
+
+double Sparsity::value_of(const Climb& climb, Part& part) const {
+  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows();
+  double sum = 0;
+  for (int level = part.levels - 1; level >= part.root; --level) {
+    Eigen::MatrixXd coarse(shape_.line_length(level - part.root), part.line.cols());
+    for (Index node = 0; node < shape_.nodes(level - part.root); ++node) {
       if (node % 256 == 0) watch_.poll();
-      const Eigen::MatrixXd values = inverse.transpose() * fine.middleRows(node * shape_.children_step(), rows);
+      const Eigen::MatrixXd values =
+          climb.inverse.transpose() * part.line.middleRows(node * shape_.children_step(), rows);
       coarse.middleRows(node * shape_.polygon_step(), n) = values.topRows(n);
       for (int j = 0; j < d; ++j) {
-        const double g = gains.gain[static_cast<std::size_t>(level)](j);
-        sum += robust_weight(values.row(n + j).squaredNorm() * g * g, curve.scales).rho;
+        const double g = climb.gains.gain[static_cast<std::size_t>(level)](j);
+        sum += robust_weight(values.row(n + j).squaredNorm() * g * g, climb.curve.scales).rho;
       }
     }
-    fine.swap(coarse);
+    part.line.swap(coarse);
   }
   return sum;
 }
 
-// [P δ] = F R^-1, so d[P δ] = (dF - [P δ] dR) R^-1. A tangent has a row for each value that moves and, for each
-// coordinate, a lane for each parameter. The ends of polygons are samples and never move. At the finest level dF = 0,
-// and dR has one entry (two in C) a parameter: no product is needed there.
-void Sparsity::gather_curve(const SparseCurve& curve, const RowMatrix& matrix, const RowMatrix& inverse,
-                            RowSink& sink) const {
-  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows(), inner = n - 2;
-  const Index dimension = curve.line->dimension(), count = static_cast<Index>(entries_.size());
-  const GainTangents gains = gain_tangents(shape_, curve.levels, matrix, entries_);
-
+Sparsity::Climb Sparsity::climb_of(const SparseCurve& curve, const RowMatrix& matrix, const RowMatrix& inverse) const {
+  const int n = shape_.control_points(), rows = shape_.rows();
   std::vector<int> moving_in, moving_out;
   for (int c = 0; c < rows; ++c)
     if (c % (n - 1) != 0) moving_in.push_back(c);
@@ -163,32 +226,55 @@ void Sparsity::gather_curve(const SparseCurve& curve, const RowMatrix& matrix, c
   for (Index a = 0; a < lift.rows(); ++a)
     for (Index b = 0; b < lift.cols(); ++b)
       lift(a, b) = inverse(moving_in[static_cast<std::size_t>(b)], moving_out[static_cast<std::size_t>(a)]);
+  return {curve, inverse, gain_tangents(shape_, curve.levels, matrix, entries_), std::move(moving_out),
+          std::move(lift)};
+}
 
+void Sparsity::gather(const SparseCurve& curve, const RowMatrix& matrix, const RowMatrix& inverse,
+                      Normal& normal) const {
+  const Climb climb = climb_of(curve, matrix, inverse);
+  this->climb(curve, curve.line->dimension() * static_cast<Index>(entries_.size()),
+              [&](Index groups, const Work& work) {
+                if (groups == 1) return work(0, [&](Part& part) { gather(climb, part, normal); });
+                std::vector<Normal> each(static_cast<std::size_t>(groups), Normal(normal.parameters()));
+                parallel_for(groups, 0, [&](Index group) {
+                  work(group, [&](Part& part) { gather(climb, part, each[static_cast<std::size_t>(group)]); });
+                });
+                for (Normal& one : each) normal += one;
+              });
+}
+
+// [P δ] = F R^-1, so d[P δ] = (dF - [P δ] dR) R^-1. A tangent has a row for each value that moves and, for each
+// coordinate, a lane for each parameter. The ends of polygons are samples and never move. At the finest level dF = 0,
+// and dR has one entry (two in C) a parameter: no product is needed there.
+void Sparsity::gather(const Climb& climb, Part& part, RowSink& sink) const {
+  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows(), inner = n - 2;
+  const Index dimension = climb.curve.line->dimension(), count = static_cast<Index>(entries_.size());
   using RowArray = Eigen::Array<double, 1, Eigen::Dynamic>;
   RowArray along(count), slope(count);
-  Lanes tangent(static_cast<Index>(moving_out.size()), dimension * count), fine_tangent;
-  Eigen::MatrixXd fine = curve.line->matrix();
-  for (int level = curve.levels - 1; level >= 0; --level) {
-    const auto& gain = gains.gain[static_cast<std::size_t>(level)];
-    Eigen::MatrixXd coarse(shape_.line_length(level), dimension);
-    Lanes coarse_tangent(inner * shape_.nodes(level), dimension * count);
-    for (Index node = 0; node < shape_.nodes(level); ++node) {
+  Lanes tangent(static_cast<Index>(climb.moving_out.size()), dimension * count);
+  for (int level = part.levels - 1; level >= part.root; --level) {
+    const auto& gain = climb.gains.gain[static_cast<std::size_t>(level)];
+    Eigen::MatrixXd coarse(shape_.line_length(level - part.root), dimension);
+    Lanes coarse_tangent(inner * shape_.nodes(level - part.root), dimension * count);
+    for (Index node = 0; node < shape_.nodes(level - part.root); ++node) {
       if (node % 64 == 0) watch_.poll();
-      const Eigen::MatrixXd values = inverse.transpose() * fine.middleRows(node * shape_.children_step(), rows);
+      const Eigen::MatrixXd values =
+          climb.inverse.transpose() * part.line.middleRows(node * shape_.children_step(), rows);
       coarse.middleRows(node * shape_.polygon_step(), n) = values.topRows(n);
-      if (level + 1 == curve.levels || inner == 0)
+      if (level + 1 == climb.curve.levels || inner == 0)
         tangent.setZero();
       else
-        tangent.noalias() = lift * fine_tangent.middleRows(node * shape_.maps() * inner, shape_.maps() * inner);
-      subtract_own_tangent(values, inverse, moving_out, tangent);
+        tangent.noalias() = climb.lift * part.tangent.middleRows(node * shape_.maps() * inner, shape_.maps() * inner);
+      subtract_own_tangent(values, climb.inverse, climb.moving_out, tangent);
       coarse_tangent.middleRows(node * inner, inner) = tangent.topRows(inner);
 
       for (int j = 0; j < d; ++j) {
         const Eigen::VectorXd delta = values.row(n + j);
         const double g = gain(j);
-        const RobustWeight weight = robust_weight(delta.squaredNorm() * g * g, curve.scales);
+        const RobustWeight weight = robust_weight(delta.squaredNorm() * g * g, climb.curve.scales);
         const auto moved = tangent.row(inner + j).array();
-        slope = gains.tangent[static_cast<std::size_t>(level)].row(j).array();
+        slope = climb.gains.tangent[static_cast<std::size_t>(level)].row(j).array();
         along = (delta.squaredNorm() * g) * slope;  // v·dv, v = δ g
         for (Index axis = 0; axis < dimension; ++axis)
           along += (delta(axis) * g * g) * moved.segment(axis * count, count);
@@ -200,8 +286,8 @@ void Sparsity::gather_curve(const SparseCurve& curve, const RowMatrix& matrix, c
         }
       }
     }
-    fine.swap(coarse);
-    fine_tangent.swap(coarse_tangent);
+    part.line.swap(coarse);
+    part.tangent.swap(coarse_tangent);
   }
 }
 

@@ -2,6 +2,7 @@
 // large. Its Jacobian is analytic.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "base/cancel.h"
@@ -27,8 +28,20 @@ class Sparsity : public Objective {
   void rows(const RowMatrix& matrix, RowSink& sink) const;
 
  private:
+  struct Part;
+  struct Climb;
+  // Of one stage of a climb: calls work(group, take) for each of so many groups, in turn or at once; work hands each
+  // of the group's parts to take.
+  using Take = std::function<void(Part& part)>;
+  using Work = std::function<void(Index group, const Take& take)>;
+  using Stage = std::function<void(Index groups, const Work& work)>;
+
+  void climb(const SparseCurve& curve, Index tangents, const Stage& stage) const;
   double value_of(const SparseCurve& curve, const RowMatrix& matrix, const RowMatrix& inverse) const;
-  void gather_curve(const SparseCurve& curve, const RowMatrix& matrix, const RowMatrix& inverse, RowSink& sink) const;
+  double value_of(const Climb& climb, Part& part) const;
+  Climb climb_of(const SparseCurve& curve, const RowMatrix& matrix, const RowMatrix& inverse) const;
+  void gather(const SparseCurve& curve, const RowMatrix& matrix, const RowMatrix& inverse, Normal& normal) const;
+  void gather(const Climb& climb, Part& part, RowSink& sink) const;
   void subtract_own_tangent(const Eigen::MatrixXd& values, const RowMatrix& inverse, const std::vector<int>& out,
                             Lanes& tangent) const;
 

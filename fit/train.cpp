@@ -116,7 +116,8 @@ double judge(const Family& family, const FilterPtr& start, const FilterPtr& trai
 TrainResult train(const std::vector<FitCurve>& given, const TrainOptions& options, Watch& watch) {
   require_curves(given);
   watch.report(0.0, "train");
-  const std::vector<FitCurve> curves = near_unit_size(given).curves;
+  const ScaledCurves near = near_unit_size(given);
+  const std::vector<FitCurve>& curves = near.any ? near.curves : given;
   require_start(options.start);
   const Shape& shape = options.start->shape();
   require_least_budgets(options.budgets, shape);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/cancel.h"
+#include "fit/blocks.h"
 #include "fit/objective.h"
 #include "fit/parameters.h"
 
@@ -26,14 +27,16 @@ class Truncation : public Objective {
   void gather(const RowMatrix& matrix, Normal& normal) override;
 
  private:
-  // Lines of all levels from `kept` on, and the weighted error of what the coarsest of them becomes.
-  struct Analysed {
-    std::vector<Lanes> lines;  // by level - kept
-    Lanes weighted_error;
-    double value;
-  };
+  struct Felt;
+  struct Seen;
 
-  Analysed analysed(const TruncatedCurve& curve, const RowMatrix& matrix, const RowMatrix& inverse) const;
+  Seen seen(const RowMatrix& matrix) const;
+  // The value; adds (J | r)ᵀ(J | r) but for rᵀr to `product`, when there is one.
+  double gather(const TruncatedCurve& curve, const Seen& seen, Eigen::MatrixXd* product) const;
+  std::vector<Lanes> analysed(const TruncatedCurve& curve, const Seen& seen, const Blocks& blocks) const;
+  std::vector<Lanes> subtree_lines(const TruncatedCurve& curve, const Seen& seen, int cut, Index node) const;
+  double gather_subtree(const TruncatedCurve& curve, const Seen& seen, int cut, Index node,
+                        const Eigen::Ref<const Lanes>& polygon, Felt* felt) const;
 
   Shape shape_;
   std::vector<TruncatedCurve> curves_;

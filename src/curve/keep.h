@@ -20,5 +20,9 @@ Kept largest(const std::vector<double>& values, Index count);
 
 // The model with its other details zero.
 ModelPtr keep(const Model& model, const Kept& kept);
+// Of every level as many details as the model's, all zero: what sketches of one curve may share.
+std::vector<PointsPtr> zero_details(const Model& model);
+// The same as keep(), levels without kept details taken from `zeros`.
+ModelPtr keep(const Model& model, const Kept& kept, const std::vector<PointsPtr>& zeros);
 
 }  // namespace ifsm::core

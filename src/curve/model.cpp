@@ -84,12 +84,12 @@ void take_apart(ModelParts& parts, const Points& finest, int levels) {
 
 // What synthesis misses of the finest line, taken apart and added: takes back what analysis rounded away where large
 // polygons cancel. Filters of few control points do not need it, and it costs as much again.
-void correct(ModelParts& parts, const Points& finest, int levels) {
+void correct(ModelParts& parts, Points finest, int levels) {
   constexpr double worth = 1e-13;  // of the diagonal: a tenth of what is promised
   // Sums of rows() products lose a few roundings of the largest of them.
   const double lost = 2 * epsilon * parts.filter->shape().rows() * parts.largest_polygon;
   if (!(lost > worth * parts.diagonal)) return;
-  Points left = finest;
+  Points left = std::move(finest);
   left.matrix() -= line(parts, levels).matrix();
   ModelParts correction;
   correction.filter = parts.filter;
@@ -130,10 +130,9 @@ ModelPtr analyze(const FilterPtr& filter, const Points& samples, bool closed, in
   parts.diagonal = diagonal(samples);
   require_in_range_of_doubles(parts.diagonal);
   const Placement placement(samples.count(), shape.places(chosen, closed), closed);
-  const Points places = placement.fill(to_center(samples, parts.center));
-  const Points finest = read(shape, closed, places, chosen);
+  Points finest = read(shape, closed, placement.fill(to_center(samples, parts.center)), chosen);
   take_apart(parts, finest, chosen);
-  correct(parts, finest, chosen);
+  correct(parts, std::move(finest), chosen);
   return std::make_shared<Model>(std::move(parts));
 }
 
@@ -172,7 +171,7 @@ Points line(const ModelParts& parts, int level) {
 
 Points line(const Model& model, int level) { return line(model.parts(), level); }
 
-Points lay(const Shape& shape, bool closed, const Points& line, int level) {
+Points lay(const Shape& shape, bool closed, Points line, int level) {
   if (shape.joined()) return line;
   const int n = shape.control_points();
   const Index places = shape.places(level, closed);
@@ -191,7 +190,7 @@ Points lay(const Shape& shape, bool closed, const Points& line, int level) {
   return laid;
 }
 
-Points read(const Shape& shape, bool closed, const Points& points, int level) {
+Points read(const Shape& shape, bool closed, Points points, int level) {
   const Index length = shape.line_length(level);
   if (shape.joined() && !closed) return points;
   Points line(points.dimension(), length);

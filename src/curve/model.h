@@ -61,9 +61,9 @@ Points line(const ModelParts& parts, int level);
 
 // A line as points: joined it is one already; square polygons are laid on their places, places read more than once
 // averaged.
-Points lay(const Shape& shape, bool closed, const Points& line, int level);
+Points lay(const Shape& shape, bool closed, Points line, int level);
 // And back: the line whose polygons read these points.
-Points read(const Shape& shape, bool closed, const Points& points, int level);
+Points read(const Shape& shape, bool closed, Points points, int level);
 
 // Points of a level, in the samples' coordinates (joined and closed: the last repeats the first).
 Points points(const Model& model, int level);

@@ -13,20 +13,22 @@ namespace {
 constexpr int pursuit_trials = 30;
 
 // What the samples still miss: corrections are solved for, so that what they leave open stays as it is.
-Lanes missing(const Model& model, const Model& sketch) {
-  const Points whole = line(model, model.levels()), now = line(sketch, sketch.levels());
-  return lanes_of(whole) - lanes_of(now);
+Points missing(const Model& model, const Model& sketch) {
+  Points missing = line(model, model.levels());
+  missing.matrix() -= line(sketch, sketch.levels()).matrix();
+  return missing;
 }
 
-ModelPtr corrected(const Model& sketch, const Solution& correction) {
+ModelPtr corrected(const Model& sketch, const Kept& kept, const Solution& correction) {
   ModelParts parts = sketch.parts();
   parts.polygon.matrix() += correction.control;
   close_ends(parts);
-  Index first = 0;
+  auto flag = kept.begin();
+  Index value = 0;
   for (auto& level : parts.details) {
     auto details = std::make_shared<Points>(*level);
-    details->matrix() += correction.details.middleRows(first, details->count());
-    first += details->count();
+    for (Index i = 0; i < details->count(); ++i)
+      if (*flag++) details->matrix().row(i) += correction.values.row(value++);
     level = std::move(details);
   }
   return std::make_shared<Model>(std::move(parts));
@@ -44,8 +46,6 @@ Eigen::VectorXd sample_weights(const Model& model) {
   return weights;
 }
 
-Lanes lanes_of(const Points& line) { return line.matrix(); }
-
 ModelPtr resolve(const Model& model, const Kept& kept, const Watch& watch) {
   if (const int exponent = exponent_to_remove(model.parts().diagonal))
     return scaled(*resolve(*scaled(model, -exponent), kept, watch), exponent);
@@ -54,8 +54,8 @@ ModelPtr resolve(const Model& model, const Kept& kept, const Watch& watch) {
   TreeSolver solver = solver_of(model);
   solver.factor(model.filter().matrix(), kept, watch);
   // Twice: the second time it solves for what rounding in the factors left over.
-  const ModelPtr once = corrected(*sketch, solver.solve(missing(model, *sketch), watch));
-  return corrected(*once, solver.solve(missing(model, *once), watch));
+  const ModelPtr once = corrected(*sketch, kept, solver.solve(missing(model, *sketch), watch));
+  return corrected(*once, kept, solver.solve(missing(model, *once), watch));
 }
 
 ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch) {
@@ -63,33 +63,42 @@ ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch
   if (const int exponent = exponent_to_remove(model.parts().diagonal))
     return scaled(*resolve_choice(*scaled(model, -exponent), kept, watch), exponent);
   TreeSolver solver = solver_of(model);
-  const Lanes data = lanes_of(line(model, model.levels()));
+  const Points data = line(model, model.levels());
   const RowMatrix& filter = model.filter().matrix();
   const Choice choice = best_choice(solver, filter, kept, data, pursuit_trials, watch);
   return resolve(model, choice.kept, watch);
 }
 
-ModelPtr solved_model(ModelParts parts, const Solution& solution) {
+ModelPtr solved_model(ModelParts parts, const std::vector<PointsPtr>& zeros, const Kept& kept,
+                      const Solution& solution) {
   parts.polygon.matrix() = solution.control;
   close_ends(parts);
-  Index first = 0;
-  for (auto& level : parts.details) {
-    auto details = std::make_shared<Points>(level->dimension(), level->count());
-    details->matrix() = solution.details.middleRows(first, details->count());
-    first += details->count();
-    level = std::move(details);
+  parts.details.clear();
+  auto flag = kept.begin();
+  Index value = 0;
+  for (const PointsPtr& zero : zeros) {
+    const auto end = flag + zero->count();
+    if (std::find(flag, end, char{1}) == end) {
+      parts.details.push_back(zero);
+      flag = end;
+      continue;
+    }
+    auto details = std::make_shared<Points>(zero->dimension(), zero->count());
+    for (Index i = 0; flag != end; ++i)
+      if (*flag++) details->matrix().row(i) = solution.values.row(value++);
+    parts.details.push_back(std::move(details));
   }
   return std::make_shared<Model>(std::move(parts));
 }
 
-Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, const Watch& watch) {
+Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Points& data, const Watch& watch) {
   solver.factor(filter, kept, watch);
   Solution solution = solver.solve(data, watch);
-  const double squared_error = solver.squared_error(data, solution.curve);
+  const double squared_error = solver.squared_error(data, solution, watch);
   return {kept, std::move(solution), squared_error};
 }
 
-Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Lanes& data, int trials,
+Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Points& data, int trials,
                const Watch& watch) {
   constexpr double better = 1 - 1e-9;
   const auto count = static_cast<Index>(std::ranges::count(start.kept, char{1}));
@@ -98,19 +107,19 @@ Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const 
   if (count == 0 || count == all) return best;
   // solver holds the factors of the last solved choice: `best` at first.
   best = solved(solver, filter, best.kept, data, watch);
-  std::vector<double> scores = solver.scores(best.solution);
+  std::vector<double> scores = solver.scores(data, best.solution, watch);
   Index step = std::max<Index>(1, count / 4);
   for (int trial = 0; trial < trials && step > 0; ++trial) {
     std::vector<double> wish = scores;
     for (std::size_t i = 0; i < wish.size(); ++i)
       if (best.kept[i]) wish[i] = std::numeric_limits<double>::infinity();
     const Choice more = solved(solver, filter, largest(wish, std::min(count + step, all)), data, watch);
-    std::vector<double> worth = solver.scores(more.solution);
+    std::vector<double> worth = solver.scores(data, more.solution, watch);
     for (std::size_t i = 0; i < worth.size(); ++i)
       if (!more.kept[i]) worth[i] = -1;
     Choice next = solved(solver, filter, largest(worth, count), data, watch);
     if (next.squared_error < better * best.squared_error) {
-      scores = solver.scores(next.solution);
+      scores = solver.scores(data, next.solution, watch);
       best = std::move(next);
     } else {
       step /= 2;
@@ -119,12 +128,12 @@ Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const 
   return best;
 }
 
-Choice gathered(TreeSolver& solver, const RowMatrix& filter, Index count, const Lanes& data, const Watch& watch) {
+Choice gathered(TreeSolver& solver, const RowMatrix& filter, Index count, const Points& data, const Watch& watch) {
   constexpr Index batches = 12;
   const auto all = static_cast<std::size_t>(solver.details());
   Choice choice = solved(solver, filter, Kept(all, char{0}), data, watch);
   for (Index batch = 1; batch <= batches; ++batch) {
-    std::vector<double> wish = solver.scores(choice.solution);
+    std::vector<double> wish = solver.scores(data, choice.solution, watch);
     for (std::size_t i = 0; i < all; ++i)
       if (choice.kept[i]) wish[i] = std::numeric_limits<double>::infinity();
     choice = solved(solver, filter, largest(wish, count * batch / batches), data, watch);
@@ -132,7 +141,7 @@ Choice gathered(TreeSolver& solver, const RowMatrix& filter, Index count, const 
   return choice;
 }
 
-Choice best_choice(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, int trials,
+Choice best_choice(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Points& data, int trials,
                    const Watch& watch) {
   const auto count = static_cast<Index>(std::ranges::count(kept, char{1}));
   Choice given = pursued(solver, filter, solved(solver, filter, kept, data, watch), data, trials, watch);

@@ -15,7 +15,6 @@ ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch
 
 // The pieces, for the fit: what a joined model's samples ask of the finest line.
 Eigen::VectorXd sample_weights(const Model& model);
-Lanes lanes_of(const Points& line);
 
 struct Choice {
   Kept kept;
@@ -23,21 +22,22 @@ struct Choice {
   double squared_error;
 };
 
-// The model that has the solved values, in the place of `parts`' own.
-ModelPtr solved_model(ModelParts parts, const Solution& solution);
+// The model that has the solved values; levels that keep nothing are those of `zeros` (keep.h).
+ModelPtr solved_model(ModelParts parts, const std::vector<PointsPtr>& zeros, const Kept& kept,
+                      const Solution& solution);
 
 // `kept` as it is.
-Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, const Watch& watch);
+Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Points& data, const Watch& watch);
 // Subspace pursuit, at most `trials` rounds: adds the details that would help most, drops those that help least, keeps
 // what is better.
-Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Lanes& data, int trials,
+Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Points& data, int trials,
                const Watch& watch);
 
 // `count` details gathered from none, those first that help most beside what is there: a start that does not trust the
 // size of the details, which under an ill-conditioned filter are large and cancel.
-Choice gathered(TreeSolver& solver, const RowMatrix& filter, Index count, const Lanes& data, const Watch& watch);
+Choice gathered(TreeSolver& solver, const RowMatrix& filter, Index count, const Points& data, const Watch& watch);
 // The better one of both starts, pursued.
-Choice best_choice(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Lanes& data, int trials,
+Choice best_choice(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Points& data, int trials,
                    const Watch& watch);
 
 }  // namespace ifsm::core

@@ -1,247 +1,179 @@
 #include "curve/tree_solver.h"
 
+#include <algorithm>
+#include <numeric>
 #include <utility>
 
-#include "linalg/spectrum.h"
+#include "base/parallel.h"
+#include "curve/kernel.h"
+#include "curve/tree_scores.h"
 
 namespace ifsm::core {
+namespace {
+
+constexpr Index nodes_together = 1024;      // of a level, in one chunk
+constexpr Index places_together = 1 << 14;  // of the finest line
+
+std::vector<int> columns(int first, int count) {
+  std::vector<int> result(static_cast<std::size_t>(count));
+  std::iota(result.begin(), result.end(), first);
+  return result;
+}
+
+// Calls body(first, count) for chunks of a whole, which share the threads.
+template <class Body>
+void in_chunks(Index count, Index together, const Watch& watch, const Body& body) {
+  parallel_for((count + together - 1) / together, 0, [&](Index chunk) {
+    watch.poll();
+    body(chunk * together, std::min(together, count - chunk * together));
+  });
+}
+
+}  // namespace
 
 TreeSolver::TreeSolver(const Shape& shape, int levels, bool closed, Eigen::VectorXd weight)
-    : shape_(shape), levels_(levels), closed_(closed), weight_(std::move(weight)) {
-  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows();
-  joint_ = Eigen::MatrixXd(rows, rows * node_count());
-  form_ = Eigen::MatrixXd(n, n * node_count());
-  gain_ = Eigen::MatrixXd(d, n * node_count());
-  inverse_ = Eigen::MatrixXd(d, d * node_count());
-  kept_ = std::vector<std::vector<int>>(static_cast<std::size_t>(node_count()));
-}
-
-Eigen::MatrixXd TreeSolver::children_form(int level, Index i) const {
-  const int n = shape_.control_points(), rows = shape_.rows();
-  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(rows, rows);
-  if (at_leaves(level)) {
-    form.diagonal().head(rows - 1) = weight_.segment(i * (rows - 1), rows - 1);
-    return form;
-  }
-  const Index first = shape_.first_node(level + 1) + i * shape_.maps();
-  for (int c = 0; c < shape_.maps(); ++c)
-    form.block(first_column(shape_, c), first_column(shape_, c), n, n) += form_.middleCols((first + c) * n, n);
-  return form;
-}
-
-void TreeSolver::eliminate(int level, Index node, const Kept& kept) {
-  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows();
-  const auto joint = joint_.middleCols(node * rows, rows);
-  auto& chosen = kept_[static_cast<std::size_t>(node)];
-  chosen.clear();
-  for (int j = 0; j < d; ++j)
-    if (kept[static_cast<std::size_t>(node * d + j)]) chosen.push_back(j);
-  auto form = form_.middleCols(node * n, n);
-  form = joint.topLeftCorner(n, n);
-  const auto count = static_cast<Index>(chosen.size());
-  if (count == 0) return;
-  Eigen::MatrixXd own(count, count), cross(count, n);
-  Eigen::VectorXd full(count);
-  for (Index a = 0; a < count; ++a) {
-    const int row = n + chosen[static_cast<std::size_t>(a)];
-    full(a) = full_[static_cast<std::size_t>(level)](row);
-    for (Index b = 0; b < count; ++b) own(a, b) = joint(row, n + chosen[static_cast<std::size_t>(b)]);
-    cross.row(a) = joint.row(row).head(n);
-  }
-  const Eigen::MatrixXd inverse = known_inverse(own, full);
-  inverse_.block(0, node * d, count, count) = inverse;
-  gain_.block(0, node * n, count, n) = inverse.lazyProduct(cross);
-  form -= cross.transpose().lazyProduct(gain_.block(0, node * n, count, n));
-}
-
-// What the diagonals of the joint forms would be with every place a sample and nothing eliminated.
-Eigen::VectorXd TreeSolver::find_full() {
-  const int n = shape_.control_points();
-  const double most = weight_.maxCoeff();
-  Eigen::MatrixXd form = most * Eigen::MatrixXd::Identity(n, n);
-  form(n - 1, n - 1) = 0;
-  full_.assign(static_cast<std::size_t>(levels_), {});
-  for (int level = levels_ - 1; level >= 0; --level) {
-    Eigen::MatrixXd joint = Eigen::MatrixXd::Zero(shape_.rows(), shape_.rows());
-    for (int c = 0; c < shape_.maps(); ++c) {
-      const auto child = filter_.middleCols(first_column(shape_, c), n);
-      joint += child * form * child.transpose();
-    }
-    full_[static_cast<std::size_t>(level)] = joint.diagonal();
-    form = joint.topLeftCorner(n, n).eval();
-  }
-  form(n - 1, n - 1) += most;
-  return form.diagonal();
-}
+    : forms_(shape, levels, closed, std::move(weight)) {}
 
 void TreeSolver::factor(const RowMatrix& filter, const Kept& kept, const Watch& watch) {
-  RowMatrix copy = filter;
-  filter_.swap(copy);
-  const int n = shape_.control_points(), rows = shape_.rows();
-  const Eigen::VectorXd full = find_full();
-  for (int level = levels_ - 1; level >= 0; --level)
-    for (Index i = 0; i < shape_.nodes(level); ++i) {
-      if (i % 256 == 0) watch.poll();
-      const Index node = shape_.first_node(level) + i;
-      const Eigen::MatrixXd lifted = filter_.lazyProduct(children_form(level, i));
-      joint_.middleCols(node * rows, rows).noalias() = lifted.lazyProduct(filter_.transpose());
-      eliminate(level, node, kept);
-    }
-  Eigen::MatrixXd root = Eigen::MatrixXd::Zero(n, n);
-  if (levels_ > 0)
-    root = form_.leftCols(n);
-  else
-    root.diagonal().head(n - 1) = weight_.head(n - 1);
-  root(n - 1, n - 1) += weight_(weight_.size() - 1);
-  if (!closed_) {
-    root_inverse_ = known_inverse(root, full);
-    return;
-  }
-  // p_n-1 = p_0: solve for the others.
-  Eigen::MatrixXd tie = Eigen::MatrixXd::Identity(n, n - 1);
-  tie(n - 1, 0) = 1;
-  const Eigen::MatrixXd reduced = tie.transpose() * root * tie;
-  root_inverse_ = tie * known_inverse(reduced, tie.cwiseAbs2().transpose() * full) * tie.transpose();
+  forms_.factor(filter, kept, watch);
 }
 
-Lanes TreeSolver::children_moment(int level, Index i, const Lanes& data, const Lanes& below) const {
-  const int n = shape_.control_points(), rows = shape_.rows();
-  Lanes moment = Lanes::Zero(rows, data.cols());
-  if (at_leaves(level)) {
-    moment.topRows(rows - 1) =
-        weight_.segment(i * (rows - 1), rows - 1).asDiagonal() * data.middleRows(i * (rows - 1), rows - 1);
-    return moment;
+TreeSolver::Moments TreeSolver::moments(std::span<const double> data, const Watch& watch) const {
+  const Shape& shape = forms_.shape();
+  const Index n = shape.control_points(), d = shape.details_per_node(), rows = shape.rows();
+  const int levels = forms_.levels(), maps = shape.maps();
+  const Eigen::VectorXd& weight = forms_.weight();
+  const Eigen::Map<const Eigen::VectorXd> wanted(data.data(), static_cast<Index>(data.size()));
+  Moments result{Eigen::VectorXd(n), std::vector<double>(static_cast<std::size_t>(forms_.details()))};
+  if (levels == 0) {
+    result.control = weight.cwiseProduct(wanted);
+    return result;
   }
-  const Index first = shape_.first_node(level + 1) + i * shape_.maps();
-  for (int c = 0; c < shape_.maps(); ++c)
-    moment.middleRows(first_column(shape_, c), n) += below.middleRows((first + c) * n, n);
-  return moment;
+  const kernel::Product product(forms_.filter().transpose(), columns(0, static_cast<int>(n)),
+                                columns(static_cast<int>(n), static_cast<int>(d)));
+  std::vector<double> below, now;  // of the polygons of a level
+  for (int level = levels - 1; level >= 0; --level) {
+    now.resize(static_cast<std::size_t>(n * shape.nodes(level)));
+    double* const details = result.details.data() + shape.first_node(level) * d;
+    in_chunks(shape.nodes(level), nodes_together, watch, [&](Index first, Index count) {
+      std::vector<double> children(static_cast<std::size_t>(count * rows), 0.0);
+      for (Index i = 0; i < count; ++i) {
+        double* const own = children.data() + i * rows;
+        if (level + 1 == levels) {
+          const Index place = (first + i) * (rows - 1);
+          for (Index r = 0; r + 1 < rows; ++r) own[r] = weight(place + r) * data[static_cast<std::size_t>(place + r)];
+          continue;
+        }
+        for (int c = 0; c < maps; ++c)
+          for (Index r = 0; r < n; ++r)
+            own[first_column(shape, c) + r] += below[static_cast<std::size_t>(((first + i) * maps + c) * n + r)];
+      }
+      product(count, {children.data(), static_cast<int>(rows), static_cast<int>(rows)}, {nullptr, 0, 0},
+              now.data() + first * n, details + first * d);
+    });
+    for (const Branch& branch : forms_.branches(level)) {
+      Eigen::Map<Eigen::VectorXd> passed(now.data() + branch.node * n, n);
+      for (std::size_t a = 0; a < branch.kept.size(); ++a)
+        passed -= branch.gain.row(static_cast<Index>(a)).transpose() * details[branch.node * d + branch.kept[a]];
+    }
+    below.swap(now);
+  }
+  result.control = Eigen::Map<const Eigen::VectorXd>(below.data(), n);
+  result.control(n - 1) += weight(weight.size() - 1) * data.back();
+  return result;
 }
 
-Solution TreeSolver::solve(const Lanes& data, const Watch& watch) {
-  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows();
-  Lanes moment(rows * node_count(), data.cols()), below(n * node_count(), data.cols());
-  for (int level = levels_ - 1; level >= 0; --level)
-    for (Index i = 0; i < shape_.nodes(level); ++i) {
-      if (i % 256 == 0) watch.poll();
-      const Index node = shape_.first_node(level) + i;
-      auto own = moment.middleRows(node * rows, rows);
-      own.noalias() = filter_ * children_moment(level, i, data, below);
-      auto passed = below.middleRows(node * n, n);
-      passed = own.topRows(n);
-      const auto& chosen = kept_[static_cast<std::size_t>(node)];
-      for (std::size_t a = 0; a < chosen.size(); ++a)
-        passed.noalias() -= gain_.block(static_cast<Index>(a), node * n, 1, n).transpose() * own.row(n + chosen[a]);
-    }
-  moment_.swap(moment);
-
-  Lanes top = levels_ > 0 ? Lanes(below.topRows(n)) : Lanes(weight_.asDiagonal() * data);
-  if (levels_ > 0) top.row(n - 1) += weight_(weight_.size() - 1) * data.row(data.rows() - 1);
-  Solution solution{root_inverse_ * top, Lanes::Zero(node_count() * d, data.cols()), {}};
-  Lanes coarse = solution.control;
-  for (int level = 0; level < levels_; ++level) {
-    Lanes fine(shape_.line_length(level + 1), data.cols());
-    for (Index i = 0; i < shape_.nodes(level); ++i) {
-      if (i % 256 == 0) watch.poll();
-      descend(shape_.first_node(level) + i, coarse.middleRows(i * shape_.polygon_step(), n),
-              fine.middleRows(i * shape_.children_step(), rows), solution);
-    }
-    coarse.swap(fine);
+Solution TreeSolver::solve(const Points& data, const Watch& watch) const {
+  const Shape& shape = forms_.shape();
+  const Index d = shape.details_per_node();
+  Lanes top(shape.control_points(), data.dimension()), of_kept(forms_.kept_count(), data.dimension());
+  for (Index lane = 0; lane < data.dimension(); ++lane) {
+    const Moments moments = this->moments(data.plane(lane), watch);
+    top.col(lane) = moments.control;
+    for (int level = 0; level < forms_.levels(); ++level)
+      for (const Branch& branch : forms_.branches(level))
+        for (std::size_t a = 0; a < branch.kept.size(); ++a)
+          of_kept(branch.first_value + static_cast<Index>(a), lane) =
+              moments.details[static_cast<std::size_t>((shape.first_node(level) + branch.node) * d + branch.kept[a])];
   }
-  solution.curve.swap(coarse);
+  Solution solution{forms_.root_inverse() * top, Lanes(forms_.kept_count(), data.dimension())};
+  if (forms_.root_branch() >= 0) descend(forms_.root_branch(), solution.control, of_kept, solution);
   return solution;
 }
 
-void TreeSolver::descend(Index node, const Eigen::Ref<const Lanes>& polygon, Eigen::Ref<Lanes> children,
-                         Solution& solution) const {
-  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows();
-  children.noalias() = filter_.topRows(n).transpose() * polygon;
-  const auto& chosen = kept_[static_cast<std::size_t>(node)];
-  const auto count = static_cast<Index>(chosen.size());
-  if (count == 0) return;
-  Lanes moment(count, polygon.cols());
-  for (Index a = 0; a < count; ++a) moment.row(a) = moment_.row(node * rows + n + chosen[static_cast<std::size_t>(a)]);
-  const Lanes values =
-      inverse_.block(0, node * d, count, count) * moment - gain_.block(0, node * n, count, n) * polygon;
-  for (Index a = 0; a < count; ++a) {
-    const int j = chosen[static_cast<std::size_t>(a)];
-    solution.details.row(node * d + j) = values.row(a);
-    children.noalias() += filter_.row(n + j).transpose() * values.row(a);
+void TreeSolver::descend(int index, const Lanes& polygon, const Lanes& moments, Solution& solution) const {
+  const Shape& shape = forms_.shape();
+  const int n = shape.control_points();
+  const Branch& branch = forms_.branch(index);
+  const auto count = static_cast<Index>(branch.kept.size());
+  Lanes children(shape.rows(), polygon.cols());
+  children.noalias() = forms_.filter().topRows(n).transpose() * polygon;
+  if (count > 0) {
+    const Lanes values = branch.inverse * moments.middleRows(branch.first_value, count) - branch.gain * polygon;
+    solution.values.middleRows(branch.first_value, count) = values;
+    for (Index a = 0; a < count; ++a)
+      children.noalias() +=
+          forms_.filter().row(n + branch.kept[static_cast<std::size_t>(a)]).transpose() * values.row(a);
   }
+  for (int c = 0; c < shape.maps(); ++c)
+    if (const int child = branch.children[static_cast<std::size_t>(c)]; child >= 0)
+      descend(child, children.middleRows(first_column(shape, c), n), moments, solution);
 }
 
-// Down the tree with the covariance of each polygon: of the free values above and the node's own kept details, given
-// everything else. A detail's score is its squared residual correlation over what of its own form is left free.
-void TreeSolver::score_node(int level, Index node, const Eigen::Ref<const Eigen::MatrixXd>& spread,
-                            const Eigen::Ref<const Lanes>& polygon, const Solution& solution,
-                            std::vector<double>& score, Eigen::Ref<Eigen::MatrixXd> children) const {
-  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows();
-  const auto& chosen = kept_[static_cast<std::size_t>(node)];
-  const auto count = static_cast<Index>(chosen.size()), free = n + count;
-  const auto joint = joint_.middleCols(node * rows, rows);
-  const auto gain = gain_.block(0, node * n, count, n);
-  Eigen::MatrixXd covariance(free, free), passed(free, rows), cross(free, d);
-  Lanes value(free, polygon.cols());
-  covariance.topLeftCorner(n, n) = spread;
-  covariance.bottomLeftCorner(count, n) = -gain * spread;
-  covariance.topRightCorner(n, count) = covariance.bottomLeftCorner(count, n).transpose();
-  covariance.bottomRightCorner(count, count) =
-      inverse_.block(0, node * d, count, count) - covariance.bottomLeftCorner(count, n) * gain.transpose();
-  passed.topRows(n) = filter_.topRows(n);
-  cross.topRows(n) = joint.block(0, n, n, d);
-  value.topRows(n) = polygon;
-  for (Index a = 0; a < count; ++a) {
-    const int j = chosen[static_cast<std::size_t>(a)];
-    passed.row(n + a) = filter_.row(n + j);
-    cross.row(n + a) = joint.block(n + j, n, 1, d);
-    value.row(n + a) = solution.details.row(node * d + j);
-  }
-
-  const Lanes residual = moment_.middleRows(node * rows + n, d) - cross.transpose() * value;
-  const Eigen::MatrixXd covered = covariance * cross;
-  constexpr double dependent = 1e-9;  // a detail that the free values can imitate brings nothing
-  for (int j = 0; j < d; ++j) {
-    const double left = joint(n + j, n + j) - cross.col(j).dot(covered.col(j));
-    if (left > dependent * full_[static_cast<std::size_t>(level)](n + j))
-      score[static_cast<std::size_t>(node * d + j)] = residual.row(j).squaredNorm() / left;
-  }
-  for (Index a = 0; a < count; ++a) {
-    const double variance = covariance(n + a, n + a);
-    score[static_cast<std::size_t>(node * d + chosen[static_cast<std::size_t>(a)])] =
-        variance > 0 ? value.row(n + a).squaredNorm() / variance : 0.0;
-  }
-  for (int c = 0; c < shape_.maps(); ++c) {
-    const auto part = passed.middleCols(first_column(shape_, c), n);
-    const Eigen::MatrixXd spread_part = covariance * part;
-    children.middleCols(c * n, n).noalias() = part.transpose() * spread_part;
-  }
-}
-
-std::vector<double> TreeSolver::scores(const Solution& solution) const {
-  const int n = shape_.control_points(), d = shape_.details_per_node(), rows = shape_.rows();
-  std::vector<double> score(static_cast<std::size_t>(node_count() * d), 0.0);
-  Eigen::MatrixXd spread = root_inverse_;
-  Lanes coarse = solution.control;
-  for (int level = 0; level < levels_; ++level) {
-    Eigen::MatrixXd next(n, n * shape_.nodes(level + 1));
-    Lanes fine(shape_.line_length(level + 1), coarse.cols());
-    for (Index i = 0; i < shape_.nodes(level); ++i) {
-      const Index node = shape_.first_node(level) + i;
-      const auto polygon = coarse.middleRows(i * shape_.polygon_step(), n);
-      score_node(level, node, spread.middleCols(i * n, n), polygon, solution, score,
-                 next.middleCols(i * n * shape_.maps(), n * shape_.maps()));
-      fine.middleRows(i * shape_.children_step(), rows) =
-          filter_.topRows(n).transpose() * polygon +
-          filter_.bottomRows(d).transpose() * solution.details.middleRows(node * d, d);
-    }
-    spread.swap(next);
+void TreeSolver::synthesize(const Solution& solution, Index lane, std::span<double> line, const Watch& watch) const {
+  const Shape& shape = forms_.shape();
+  const int n = shape.control_points(), step = shape.polygon_step(), out = shape.children_step();
+  const RowMatrix& filter = forms_.filter();
+  const kernel::Product product(filter.topRows(n), columns(0, out));
+  std::vector<double> coarse(static_cast<std::size_t>(n)), fine;
+  for (int i = 0; i < n; ++i) coarse[static_cast<std::size_t>(i)] = solution.control(i, lane);
+  if (forms_.levels() == 0) std::ranges::copy(coarse, line.begin());
+  for (int level = 0; level < forms_.levels(); ++level) {
+    const bool last = level + 1 == forms_.levels();
+    if (!last) fine.resize(static_cast<std::size_t>(shape.line_length(level + 1)));
+    double* const to = last ? line.data() : fine.data();
+    in_chunks(shape.nodes(level), nodes_together, watch, [&](Index first, Index count) {
+      product(count, {coarse.data() + first * step, n, step}, {nullptr, 0, 0}, to + first * out, nullptr);
+    });
+    to[shape.nodes(level) * out] = coarse.back();
+    for (const Branch& branch : forms_.branches(level))
+      for (std::size_t a = 0; a < branch.kept.size(); ++a)
+        for (int c = 1; c < out; ++c)  // ends of polygons stay
+          to[branch.node * out + c] +=
+              filter(n + branch.kept[a], c) * solution.values(branch.first_value + static_cast<Index>(a), lane);
     coarse.swap(fine);
   }
-  return score;
 }
 
-double TreeSolver::squared_error(const Lanes& data, const Lanes& curve) const {
-  return weight_.dot((data - curve).rowwise().squaredNorm());
+Points TreeSolver::curve(const Solution& solution, const Watch& watch) const {
+  Points curve(solution.control.cols(), forms_.shape().line_length(forms_.levels()));
+  for (Index lane = 0; lane < curve.dimension(); ++lane) synthesize(solution, lane, curve.plane(lane), watch);
+  return curve;
+}
+
+double TreeSolver::squared_error(const Points& data, const Solution& solution, const Watch& watch) const {
+  const Index places = data.count();
+  Eigen::VectorXd line(places), squares = Eigen::VectorXd::Zero(places);
+  for (Index lane = 0; lane < data.dimension(); ++lane) {
+    synthesize(solution, lane, {line.data(), static_cast<std::size_t>(places)}, watch);
+    const auto wanted = data.matrix().col(lane);
+    in_chunks(places, places_together, watch, [&](Index first, Index count) {
+      squares.segment(first, count) += (wanted.segment(first, count) - line.segment(first, count)).cwiseAbs2();
+    });
+  }
+  std::vector<double> sums(static_cast<std::size_t>((places + places_together - 1) / places_together));
+  in_chunks(places, places_together, watch, [&](Index first, Index count) {
+    sums[static_cast<std::size_t>(first / places_together)] =
+        forms_.weight().segment(first, count).dot(squares.segment(first, count));
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+std::vector<double> TreeSolver::scores(const Points& data, const Solution& solution, const Watch& watch) const {
+  std::vector<std::vector<double>> of_details;
+  for (Index lane = 0; lane < data.dimension(); ++lane)
+    of_details.push_back(std::move(moments(data.plane(lane), watch).details));
+  return scores_of(forms_, solution, of_details, watch);
 }
 
 }  // namespace ifsm::core

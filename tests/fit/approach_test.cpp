@@ -36,7 +36,7 @@ TEST(Pulls, AreAsFarAsTheCurvesAre) {
     const ModelPtr model = analyze(casteljau(4), closed ? loop(100, 2, 1) : walk(100, 2, 1), closed);
     const ModelPtr sketch = keep(*model, most_significant(*model, 20));
     for (const Distance by : distances_of_places) {
-      const Pulls pulls = PullingCurve(*model, by).pulls(lanes_of(line(*sketch, sketch->levels())));
+      const Pulls pulls = PullingCurve(*model, by).pulls(line(*sketch, sketch->levels()));
       // The same distances from the centre as in the samples' coordinates, but for rounding of those.
       EXPECT_NEAR(pulls.largest, distance(*sketch, *model, by), 1e-13 * model->parts().diagonal);
       EXPECT_EQ(pulls.largest, pulls.distance.maxCoeff());

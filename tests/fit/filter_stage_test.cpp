@@ -34,8 +34,9 @@ struct Case {
   int kept;
 };
 
-const Case cases[] = {{3, 2, 1, 33, false, 0}, {3, 2, 2, 40, false, 2}, {5, 2, 2, 65, true, 1},
-                      {4, 3, 3, 50, false, 1}, {3, 4, 4, 90, true, 0},  {2, 2, 2, 30, false, 1}};
+const Case cases[] = {{3, 2, 1, 33, false, 0},  {3, 2, 2, 40, false, 2}, {5, 2, 2, 65, true, 1},
+                      {4, 3, 3, 50, false, 1},  {3, 4, 4, 90, true, 0},  {2, 2, 2, 30, false, 1},
+                      {3, 2, 1, 9000, false, 1}};  // the last in several blocks
 
 // Central differences are good to h² f''' / 6 + eps f / h: with h = 1e-5 about 1e-9 of the objective's size.
 TEST(Truncation, HasTheGradientThatCentralDifferencesSee) {

@@ -19,8 +19,8 @@ struct Case {
   bool closed;
 };
 
-const Case cases[] = {
-    {2, 2, 1, 33, false}, {3, 2, 2, 40, false}, {5, 2, 2, 65, true}, {4, 3, 3, 50, false}, {3, 4, 4, 90, true}};
+const Case cases[] = {{2, 2, 1, 33, false}, {3, 2, 2, 40, false}, {5, 2, 2, 65, true},
+                      {4, 3, 3, 50, false}, {3, 4, 4, 90, true},  {3, 2, 1, 9000, false}};  // in several blocks
 
 // A model, its finest line, and an R near de Casteljau's with no symmetry left.
 struct Setting {
@@ -29,7 +29,6 @@ struct Setting {
         shape(filter->shape()),
         model(analyze(filter, c.closed ? loop(c.samples, c.dimension, 7) : walk(c.samples, c.dimension, 7), c.closed)),
         finest(line(*model, model->levels())),
-        data(lanes_of(finest)),
         solver(shape, model->levels(), c.closed, sample_weights(*model)),
         parameters(parameters_of(shape, filter->matrix())) {
     std::mt19937 random(11);
@@ -40,14 +39,13 @@ struct Setting {
   Sparsity sparsity() { return {shape, {{&finest, model->levels(), {0.4, 1.7}}}, watch}; }
   Projection projection() {
     const Index kept = model->details_total() / 3;
-    return {shape, {{&solver, &data, model->levels(), most_significant(*model, kept), 0.7}}, watch};
+    return {shape, {{&solver, &finest, model->levels(), most_significant(*model, kept), 0.7}}, watch};
   }
 
   FilterPtr filter;
   Shape shape;
   ModelPtr model;
   Points finest;
-  Lanes data;
   TreeSolver solver;
   Eigen::VectorXd parameters;
   Watch watch;
