@@ -588,7 +588,7 @@ struct FitOptions {
   int maps = 0;                       // -1: chosen
   std::vector<std::int64_t> budgets;  // of vectors, control points and details together
   int iterations = 0;
-  int rounds = 0;
+  int rounds = 0;     // -1: none
   int polish = 0;     // -1: none
   double within = 0;  // instead of budgets: a bound that sketches keep, by `distance`
   Distance distance = Distance::rms;

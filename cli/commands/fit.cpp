@@ -48,7 +48,7 @@ void check_arguments(const FitArguments& arguments) {
     throw Failure(Exit::Usage, "auto chooses by fitting; with --no-fit give numbers to --control-points and --maps.");
   if (automatic && !settings.filter.empty())
     throw Failure(Exit::Usage, "auto chooses the shape, --filter has one already; give only one of them.");
-  const bool of_sparse = automatic || !settings.budgets.empty() || settings.rounds != 0 || settings.polish;
+  const bool of_sparse = automatic || !settings.budgets.empty() || settings.rounds || settings.polish;
   if (of_sparse && settings.stage != "sparse")
     throw Failure(Exit::Usage,
                   "--budget, --rounds, --polish and the shape auto are for --stage sparse; leave them out, "
@@ -147,8 +147,10 @@ void add_settings(CLI::App& command, FitSettings& settings) {
   auto* iterations = command.add_option("--iterations", settings.iterations, "At most so many a round (default 40)")
                          ->transform(whole_number(1, 1000));
   auto* rounds =
-      command.add_option("--rounds", settings.rounds, "How often the scale of sparsity is estimated (default 2)")
-          ->transform(whole_number(1, 100));
+      command
+          .add_option("--rounds", settings.rounds,
+                      "Rounds of sparsity (default 2, or none from coast to 128 vectors and more); 0 for none")
+          ->transform(whole_number(0, 100));
   auto* polish =
       command.add_option("--polish", settings.polish, "Rounds on the sketches' own error (default 8); 0 for none")
           ->transform(whole_number(0, 100));

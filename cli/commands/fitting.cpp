@@ -12,6 +12,7 @@ namespace {
 
 constexpr int chosen_by_library = -1;
 constexpr int no_polish = -1;
+constexpr int no_rounds = -1;
 constexpr int no_levels = -1;
 
 int shape_number(const std::string& text) {
@@ -37,7 +38,7 @@ Options common_options(const FitSettings& settings) {
 ifsm::FitOptions options_of_sparse(const FitSettings& settings) {
   auto options = common_options<ifsm::FitOptions>(settings);
   options.budgets = settings.budgets;
-  options.rounds = settings.rounds;
+  if (settings.rounds) options.rounds = *settings.rounds > 0 ? *settings.rounds : no_rounds;
   if (settings.polish) options.polish = *settings.polish > 0 ? *settings.polish : no_polish;
   options.within = settings.within;
   options.distance = distance_of(settings.distance);

@@ -20,7 +20,7 @@ struct FitSettings {
   std::string maps;
   std::string filter;
   int iterations = 0;  // 0: the library's default, here and below
-  int rounds = 0;
+  std::optional<int> rounds;
   std::optional<int> polish;
   int threads = 0;
   bool no_fit = false;

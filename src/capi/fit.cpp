@@ -22,7 +22,7 @@ FitOptions options_of(const ifsm_fit_options& given) {
   options.maps = count_or_none(given.maps, 8, options.maps, "maps");
   options.budgets = budgets_of(given.budgets, given.budget_count);
   options.iterations = count_or(given.iterations, 1000, options.iterations, "iterations");
-  options.sparse_rounds = count_or(given.rounds, 100, options.sparse_rounds, "rounds");
+  options.sparse_rounds = count_or_none(given.rounds, 100, options.sparse_rounds, "rounds");
   options.polish_rounds = count_or_none(given.polish, 100, options.polish_rounds, "polish");
   return options;
 }

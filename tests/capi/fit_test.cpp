@@ -183,7 +183,7 @@ TEST_F(Fit, NamesTheOptionThatIsWrong) {
   refuse("budget_count", [](auto& o) { o.budget_count = 65; });
   refuse("budgets", [&](auto& o) { o.budgets = budgets, o.budget_count = 2; });
   refuse("iterations", [](auto& o) { o.iterations = 1001; });
-  refuse("rounds", [](auto& o) { o.rounds = -1; });
+  refuse("rounds", [](auto& o) { o.rounds = -2; });
   refuse("polish", [](auto& o) { o.polish = 101; });
   refuse("distance", [](auto& o) { o.distance = 3; });
   refuse("within", [](auto& o) { o.within = -1; });
