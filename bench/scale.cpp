@@ -44,7 +44,9 @@ double processor_seconds() {
 
 void fit(const std::string& stage, const std::vector<ifsm::Curve>& curves, int threads) {
   if (stage == "sparse") {
+    const auto coast = ifsm::Filter::named("coast");  // or two starts are compared
     ifsm::FitOptions options;
+    options.start = &coast;
     options.threads = threads;
     options.iterations = 2;
     options.rounds = options.polish = 1;

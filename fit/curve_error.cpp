@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/parallel.h"
 #include "linalg/spectrum.h"
 
 namespace ifsm::core {
@@ -33,6 +34,15 @@ Lanes whitening_at(const CurveTerm& term, Index k) {
 }
 
 bool plain(const CurveTerm& term) { return term.target->whitening.rows() == 0; }
+
+// Calls body(groups, group, sum) for groups of a term's samples, and adds their sums.
+template <class Body>
+void gather_groups(const CurveTerm& term, Normal& normal, const Body& body) {
+  const SampleGroups groups(term.positions);
+  std::vector<Normal> each(static_cast<std::size_t>(groups.count()), Normal(normal.parameters()));
+  parallel_for(groups.count(), 0, [&](Index group) { body(groups, group, each[static_cast<std::size_t>(group)]); });
+  for (Normal& one : each) normal += one;
+}
 
 }  // namespace
 
@@ -105,16 +115,19 @@ CurveError::Quadratic CurveError::quadratic(const CurveTerm& term, const RowMatr
   const int n = shape_.control_points();
   const Index d = term.target->dimension, unknowns = n * d;
   Normal normal(static_cast<int>(unknowns));  // W (b ⊗ 1 | e)
-  Eigen::RowVectorXd error(d);
-  CurveWalk(shape_, levels_, matrix, watch_).basis(term.positions, [&](Index k, const double* basis) {
-    error.noalias() = Eigen::Map<const Eigen::RowVectorXd>(basis, n) * control;
-    error -= term.target->samples.row(k);
-    const Lanes whitening = whitening_at(term, k);
-    for (Index a = 0; a < d; ++a) {
-      Eigen::Map<Eigen::RowVectorXd> row(normal.row(), unknowns + 1);
-      for (int i = 0; i < n; ++i) row.segment(i * d, d) = basis[i] * whitening.row(a);
-      row(unknowns) = whitening.row(a).dot(error);
-    }
+  gather_groups(term, normal, [&](const SampleGroups& groups, Index group, Normal& sum) {
+    Eigen::RowVectorXd error(d);
+    CurveWalk(shape_, levels_, matrix, watch_).basis(groups.positions(group), [&](Index at, const double* basis) {
+      const Index k = groups.first(group) + at;
+      error.noalias() = Eigen::Map<const Eigen::RowVectorXd>(basis, n) * control;
+      error -= term.target->samples.row(k);
+      const Lanes whitening = whitening_at(term, k);
+      for (Index a = 0; a < d; ++a) {
+        Eigen::Map<Eigen::RowVectorXd> row(sum.row(), unknowns + 1);
+        for (int i = 0; i < n; ++i) row.segment(i * d, d) = basis[i] * whitening.row(a);
+        row(unknowns) = whitening.row(a).dot(error);
+      }
+    });
   });
   const Eigen::MatrixXd whole = normal.product().selfadjointView<Eigen::Lower>();
   return {whole.topLeftCorner(unknowns, unknowns), whole.row(unknowns).head(unknowns), whole(unknowns, unknowns)};
@@ -124,19 +137,32 @@ CurveError::Quadratic CurveError::quadratic(const CurveTerm& term, const RowMatr
 CurveError::Quadratic CurveError::plain_quadratic(const CurveTerm& term, const RowMatrix& matrix, const Lanes& control,
                                                   bool with_form) const {
   const Index n = shape_.control_points(), d = term.target->dimension;
-  Quadratic result{Eigen::MatrixXd::Zero(n * d, n * d), Eigen::VectorXd::Zero(n * d), 0};
-  Lanes form = Lanes::Zero(n, n);
-  CurveWalk(shape_, levels_, matrix, watch_).basis(term.positions, [&](Index k, const double* basis) {
-    const double root = root_weight(term, k), weight = root * root;
-    for (Index a = 0; a < d; ++a) {
-      double error = -term.target->samples(k, a);
-      for (Index i = 0; i < n; ++i) error += basis[i] * control(i, a);
-      result.value += weight * error * error;
-      for (Index i = 0; i < n; ++i) result.gradient(i * d + a) += weight * error * basis[i];
-    }
-    for (Index i = 0; with_form && i < n; ++i)
-      for (Index j = 0; j <= i; ++j) form(i, j) += weight * basis[i] * basis[j];
+  const SampleGroups groups(term.positions);
+  const Quadratic none{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n * d), 0};
+  std::vector<Quadratic> each(static_cast<std::size_t>(groups.count()), none);  // the form of one coordinate
+  parallel_for(groups.count(), 0, [&](Index group) {
+    Quadratic sum = none;
+    CurveWalk(shape_, levels_, matrix, watch_).basis(groups.positions(group), [&](Index at, const double* basis) {
+      const Index k = groups.first(group) + at;
+      const double root = root_weight(term, k), weight = root * root;
+      for (Index a = 0; a < d; ++a) {
+        double error = -term.target->samples(k, a);
+        for (Index i = 0; i < n; ++i) error += basis[i] * control(i, a);
+        sum.value += weight * error * error;
+        for (Index i = 0; i < n; ++i) sum.gradient(i * d + a) += weight * error * basis[i];
+      }
+      for (Index i = 0; with_form && i < n; ++i)
+        for (Index j = 0; j <= i; ++j) sum.form(i, j) += weight * basis[i] * basis[j];
+    });
+    each[static_cast<std::size_t>(group)] = std::move(sum);
   });
+  Quadratic result{Eigen::MatrixXd::Zero(n * d, n * d), Eigen::VectorXd::Zero(n * d), 0};
+  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(n, n);
+  for (const Quadratic& one : each) {
+    form += one.form;
+    result.gradient += one.gradient;
+    result.value += one.value;
+  }
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j)
       for (Index a = 0; a < d; ++a) result.form(i * d + a, j * d + a) = form(std::max(i, j), std::min(i, j));
@@ -144,11 +170,17 @@ CurveError::Quadratic CurveError::plain_quadratic(const CurveTerm& term, const R
 }
 
 void CurveError::rows(const CurveTerm& term, const RowMatrix& matrix, const Lanes& control, RowSink& sink) const {
+  rows(term, term.positions, 0, matrix, control, sink);
+}
+
+void CurveError::rows(const CurveTerm& term, std::span<const Position> positions, Index first, const RowMatrix& matrix,
+                      const Lanes& control, RowSink& sink) const {
   const int n = shape_.control_points(), count = free_count(shape_, Part::maps);
   const Index d = term.target->dimension, unknowns = n * d;
   Eigen::RowVectorXd error(d);
   CurveWalk(shape_, levels_, matrix, watch_)
-      .tangents(term.positions, control, [&](Index k, const double* values, const double* moved) {
+      .tangents(positions, control, [&](Index at, const double* values, const double* moved) {
+        const Index k = first + at;
         const Eigen::Map<const Eigen::RowVectorXd> basis(values, n);
         const Eigen::Map<const Lanes> tangent(moved, d, count);
         error.noalias() = basis * control;
@@ -169,24 +201,21 @@ Eigen::MatrixXd CurveError::product(const CurveTerm& term, const RowMatrix& matr
   const Index d = term.target->dimension, unknowns = n * d, size = unknowns + count + 1;
   if (!plain(term)) {
     Normal normal(static_cast<int>(size) - 1);
-    rows(term, matrix, control, normal);
+    gather_groups(term, normal, [&](const SampleGroups& groups, Index group, Normal& sum) {
+      rows(term, groups.positions(group), groups.first(group), matrix, control, sum);
+    });
     return normal.product().selfadjointView<Eigen::Lower>();
   }
   std::vector<Normal> normals;  // a coordinate each: (b | tangent | e)
   for (Index a = 0; a < d; ++a) normals.emplace_back(n + count);
-  CurveWalk(shape_, levels_, matrix, watch_)
-      .tangents(term.positions, control, [&](Index k, const double* basis, const double* moved) {
-        const double root = root_weight(term, k);
-        for (Index a = 0; a < d; ++a) {
-          double* const row = normals[static_cast<std::size_t>(a)].row();
-          double error = -term.target->samples(k, a);
-          for (Index i = 0; i < n; ++i) error += basis[i] * control(i, a);
-          Eigen::Map<Eigen::RowVectorXd>(row, n) = root * Eigen::Map<const Eigen::RowVectorXd>(basis, n);
-          Eigen::Map<Eigen::RowVectorXd>(row + n, count) =
-              root * Eigen::Map<const Eigen::RowVectorXd>(moved + a * count, count);
-          row[n + count] = root * error;
-        }
-      });
+  const SampleGroups groups(term.positions);
+  std::vector<std::vector<Normal>> each(static_cast<std::size_t>(groups.count()), normals);
+  parallel_for(groups.count(), 0, [&](Index group) {
+    plain_rows(term, groups.positions(group), groups.first(group), matrix, control,
+               each[static_cast<std::size_t>(group)]);
+  });
+  for (auto& one : each)
+    for (std::size_t a = 0; a < normals.size(); ++a) normals[a] += one[a];
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size, size);
   for (Index a = 0; a < d; ++a) {
     const Eigen::MatrixXd part = normals[static_cast<std::size_t>(a)].product().selfadjointView<Eigen::Lower>();
@@ -198,6 +227,25 @@ Eigen::MatrixXd CurveError::product(const CurveTerm& term, const RowMatrix& matr
     }
   }
   return whole;
+}
+
+void CurveError::plain_rows(const CurveTerm& term, std::span<const Position> positions, Index first,
+                            const RowMatrix& matrix, const Lanes& control, std::vector<Normal>& normals) const {
+  const Index n = shape_.control_points(), count = free_count(shape_, Part::maps);
+  CurveWalk(shape_, levels_, matrix, watch_)
+      .tangents(positions, control, [&](Index at, const double* basis, const double* moved) {
+        const Index k = first + at;
+        const double root = root_weight(term, k);
+        for (Index a = 0; a < term.target->dimension; ++a) {
+          double* const row = normals[static_cast<std::size_t>(a)].row();
+          double error = -term.target->samples(k, a);
+          for (Index i = 0; i < n; ++i) error += basis[i] * control(i, a);
+          Eigen::Map<Eigen::RowVectorXd>(row, n) = root * Eigen::Map<const Eigen::RowVectorXd>(basis, n);
+          Eigen::Map<Eigen::RowVectorXd>(row + n, count) =
+              root * Eigen::Map<const Eigen::RowVectorXd>(moved + a * count, count);
+          row[n + count] = root * error;
+        }
+      });
 }
 
 // With p = Z z + S C along the constraints: the product in (z, C, r), and its Schur complement.

@@ -57,6 +57,12 @@ class CurveError : public Objective {
   Eigen::MatrixXd product(const CurveTerm& term, const RowMatrix& matrix, const Lanes& control) const;
 
  private:
+  // Of neighbouring samples, the first of which is number `first`.
+  void rows(const CurveTerm& term, std::span<const Position> positions, Index first, const RowMatrix& matrix,
+            const Lanes& control, RowSink& sink) const;
+  void plain_rows(const CurveTerm& term, std::span<const Position> positions, Index first, const RowMatrix& matrix,
+                  const Lanes& control, std::vector<Normal>& normals) const;
+
   struct Quadratic {
     Eigen::MatrixXd form;
     Eigen::VectorXd gradient;

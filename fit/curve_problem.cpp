@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/parallel.h"
 #include "fit/foot_points.h"
 #include "fit/refine.h"
 
@@ -114,15 +115,22 @@ CurveState CurveProblem::judged(CurveState state, const Loss& loss, int levels) 
     const Target& target = targets_[c];
     const Lanes& control = state.controls[c];
     auto& squared = state.squared.emplace_back(static_cast<std::size_t>(loss.robust() ? target.count() : 0));
-    Eigen::RowVectorXd error(target.dimension);
-    CurveWalk(shape_, levels, state.matrix, watch_)
-        .basis(positions_of(shape_, levels, state.parameters[c]), [&](Index k, const double* basis) {
-          error.noalias() = Eigen::Map<const Eigen::RowVectorXd>(basis, n) * control;
-          error -= target.samples.row(k);
-          const double square = target.squared(k, error);
-          if (loss.robust()) squared[static_cast<std::size_t>(k)] = square;
-          state.cost += loss(square).rho;
-        });
+    const std::vector<Position> positions = positions_of(shape_, levels, state.parameters[c]);
+    const SampleGroups groups(positions);
+    std::vector<double> costs(static_cast<std::size_t>(groups.count()), 0.0);
+    parallel_for(groups.count(), 0, [&](Index group) {
+      Eigen::RowVectorXd error(target.dimension);
+      CurveWalk(shape_, levels, state.matrix, watch_)
+          .basis(groups.positions(group), [&](Index at, const double* basis) {
+            const Index k = groups.first(group) + at;
+            error.noalias() = Eigen::Map<const Eigen::RowVectorXd>(basis, n) * control;
+            error -= target.samples.row(k);
+            const double square = target.squared(k, error);
+            if (loss.robust()) squared[static_cast<std::size_t>(k)] = square;
+            costs[static_cast<std::size_t>(group)] += loss(square).rho;
+          });
+    });
+    for (const double cost : costs) state.cost += cost;
   }
   return state;
 }

@@ -3,6 +3,7 @@
 // is held at a time.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <span>
 #include <vector>
@@ -22,6 +23,29 @@ struct Position {
 
 // Parameters 0 … 1, from the first place to the last (closed: back to the first).
 std::vector<Position> positions_of(const Shape& shape, int levels, std::span<const double> parameters);
+
+// Samples that follow each other, in groups which share the threads and sum on their own: so many, whatever the number
+// of threads.
+class SampleGroups {
+ public:
+  explicit SampleGroups(std::span<const Position> positions)
+      : positions_(positions),
+        count_(std::clamp<Index>(static_cast<Index>(positions.size()) / fewest_together, 1, most_groups)) {}
+
+  Index count() const { return count_; }
+  Index first(Index group) const { return static_cast<Index>(positions_.size()) * group / count_; }
+  std::span<const Position> positions(Index group) const {
+    return positions_.subspan(static_cast<std::size_t>(first(group)),
+                              static_cast<std::size_t>(first(group + 1) - first(group)));
+  }
+
+ private:
+  static constexpr Index fewest_together = 1 << 13;  // samples
+  static constexpr Index most_groups = 16;           // each holds an outer product of parameters
+
+  std::span<const Position> positions_;
+  Index count_;
+};
 
 class CurveWalk {
  public:

@@ -543,7 +543,7 @@ typedef struct ifsm_fit {
 
 typedef struct ifsm_fit_options {
   uint32_t struct_size;
-  int32_t threads;        /* at most so many, 0: as ifsm_set_threads says; curves of one fit share them */
+  int32_t threads;        /* at most so many, 0: as ifsm_set_threads says; curves share them, and long curves' parts */
   ifsm_filter start;      /* borrowed: where to start, joined, its shape instead of the one below; {0}: coast where it
                              has that shape, else casteljau */
   int32_t control_points; /* n, 2 … 16; 0: 5; -1: chosen among 2 … 6 */

@@ -47,12 +47,14 @@ class Way {
   template <class Take>
   void down(const Node& node, int end, const Take& take) {
     if (node.level == end) return take(node);
-    watch_.poll();
+    if (node.index % 64 == 0) watch_.poll();
     Children& children = buffers_[static_cast<std::size_t>(node.level)];
-    if (node.branch < 0)
-      score_plain(node, children);
-    else
+    if (node.branch >= 0)
       score_branch(node, children);
+    else if (n_ == 5)
+      score_plain<5>(node, children);
+    else
+      score_plain<0>(node, children);
     if (node.level + 1 == forms_.levels()) return;
     for (int c = 0; c < shape_.maps(); ++c) {
       const auto at = static_cast<std::size_t>(c);
@@ -85,41 +87,44 @@ class Way {
     score_[static_cast<std::size_t>(detail)] = squares / left;
   }
 
-  // Nothing is kept here: score_branch() without its free values, by hand, since nearly all nodes are such.
+  // Nothing is kept here: score_branch() without its free values, by hand, since nearly all nodes are such. N: n when
+  // it is known (5 is the default), which unrolls the loops.
+  template <Index N>
   void score_plain(const Node& node, Children& out) {
+    const Index n = N > 0 ? N : n_;
     const Eigen::MatrixXd& joint = forms_.form_of_kind(node.kind).joint;
     const Index first = first_detail(node);
     for (Index j = 0; j < d_; ++j) {
       const double* const cross = joint.data() + j * rows_;
-      for (Index i = 0; i < n_; ++i) {
+      for (Index i = 0; i < n; ++i) {
         double sum = 0;
-        for (Index k = 0; k < n_; ++k) sum += node.spread[i * n_ + k] * cross[k];
+        for (Index k = 0; k < n; ++k) sum += node.spread[i * n + k] * cross[k];
         beside_[static_cast<std::size_t>(i)] = sum;
       }
-      score(node, first + j, j, joint(n_ + j, j), n_, cross, beside_.data(), node.polygon);
+      score(node, first + j, j, joint(n + j, j), n, cross, beside_.data(), node.polygon);
     }
     if (node.level + 1 == forms_.levels()) return;
     const RowMatrix& filter = forms_.filter();
     std::ranges::fill(lifted_, 0.0);  // the spread times C
-    for (Index i = 0; i < n_; ++i)
-      for (Index k = 0; k < n_; ++k)
+    for (Index i = 0; i < n; ++i)
+      for (Index k = 0; k < n; ++k)
         for (Index c = 0; c < rows_; ++c)
-          lifted_[static_cast<std::size_t>(i * rows_ + c)] += node.spread[i * n_ + k] * filter(k, c);
+          lifted_[static_cast<std::size_t>(i * rows_ + c)] += node.spread[i * n + k] * filter(k, c);
     for (int child = 0; child < shape_.maps(); ++child) {
       const Index column = first_column(shape_, child);
-      double* const spread = out.spread.data() + child * n_ * n_;
-      for (Index a = 0; a < n_; ++a)
+      double* const spread = out.spread.data() + child * n * n;
+      for (Index a = 0; a < n; ++a)
         for (Index b = 0; b <= a; ++b) {
           double sum = 0;
-          for (Index k = 0; k < n_; ++k)
+          for (Index k = 0; k < n; ++k)
             sum += filter(k, column + a) * lifted_[static_cast<std::size_t>(k * rows_ + column + b)];
-          spread[a * n_ + b] = spread[b * n_ + a] = sum;
+          spread[a * n + b] = spread[b * n + a] = sum;
         }
       for (Index lane = 0; lane < lanes_; ++lane)
-        for (Index a = 0; a < n_; ++a) {
+        for (Index a = 0; a < n; ++a) {
           double sum = 0;
-          for (Index k = 0; k < n_; ++k) sum += filter(k, column + a) * node.polygon[lane * n_ + k];
-          out.polygon[static_cast<std::size_t>((child * lanes_ + lane) * n_ + a)] = sum;
+          for (Index k = 0; k < n; ++k) sum += filter(k, column + a) * node.polygon[lane * n + k];
+          out.polygon[static_cast<std::size_t>((child * lanes_ + lane) * n + a)] = sum;
         }
     }
   }

@@ -49,7 +49,7 @@ class TreeSolver {
   };
 
   Moments moments(std::span<const double> data, const Watch& watch) const;
-  void descend(int branch, const Lanes& polygon, const Lanes& moments, Solution& solution) const;
+  void descend(int index, const Lanes& polygon, const Lanes& moments, Solution& solution) const;
   // One lane of the curve.
   void synthesize(const Solution& solution, Index lane, std::span<double> line, const Watch& watch) const;
 

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "curve/keep.h"
 #include "curves.h"
+#include "fit/curve_stage.h"
 #include "fit/parameters.h"
 #include "fit/projection.h"
 #include "fit/sparsity.h"
@@ -62,6 +63,28 @@ TEST(FitThreads, SumTheErrorOfTheFirstLevelsToTheSameBits) {
   Truncation objective(setting.filter->shape(),
                        {{&setting.finest, setting.model->levels(), 3, sample_weights(*setting.model)}}, setting.watch);
   expect_the_same_bits(objective, setting, Part::details);
+}
+
+TEST(FitThreads, FitOneCurvesControlPointsToTheSameBits) {
+  const std::vector<FitCurve> curves = {{walk(40'000, 2, 6), false}};
+  for (const bool robust : {false, true}) {
+    CurveOptions options;
+    options.starts = 1;
+    options.iterations = 12;
+    if (robust) options.loss = {LossKind::huber, 5};
+    const auto fitted = [&](int threads) {
+      const Threads most(threads);
+      Watch watch;
+      return fit_curve(curves, options, watch);
+    };
+    const FitResult one = fitted(1);
+    EXPECT_LT(one.final_cost, one.start_cost);
+    for (const int threads : {2, 7}) {
+      const FitResult many = fitted(threads);
+      EXPECT_EQ(many.filter->matrix(), one.filter->matrix()) << threads << " threads";
+      EXPECT_EQ(many.final_cost, one.final_cost) << threads << " threads";
+    }
+  }
 }
 
 }  // namespace
