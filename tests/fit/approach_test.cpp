@@ -99,8 +99,8 @@ TEST(Approach, IsNeverFartherThanTheLeastSquares) {
 
 TEST(Approach, BringsRoughCurvesNearer) {
   for (const unsigned seed : {4U, 5U, 6U}) {
-    const ModelPtr model = analyze(default_filter(5, 2), walk(1025, 2, seed), false);
-    const Kept kept = most_significant(*model, 60);
+    const ModelPtr model = analyze(default_filter(5, 2), walk(513, 2, seed), false);
+    const Kept kept = most_significant(*model, 40);
     for (const Distance by : distances_of_places) {
       const double squares = distance(*resolve_choice(*model, kept, Watch()), *model, by);
       const double nearest = distance(*approach_choice(*model, kept, by, Watch()), *model, by);
@@ -111,7 +111,7 @@ TEST(Approach, BringsRoughCurvesNearer) {
 }
 
 TEST(Approach, GivesTheSameBitsOnOneThreadAndOnTwo) {
-  const ModelPtr model = analyze(default_filter(5, 2), walk(1025, 2, 7), false);
+  const ModelPtr model = analyze(default_filter(5, 2), walk(513, 2, 7), false);
   const auto on = [&](int threads) {
     const Threads most(threads);
     return samples(*approach_choice(*model, most_significant(*model, 40), Distance::hausdorff, Watch()));
