@@ -8,6 +8,7 @@
 #include "files.h"
 #include "geojson.h"
 #include "report.h"
+#include "rings.h"
 
 namespace cli {
 namespace {
@@ -152,9 +153,11 @@ Curves curves_of_geojson(std::string_view text, const std::string& source, const
   if (!reading.columns.empty())
     throw Failure(Exit::Usage, "--columns: " + source + " is GeoJSON, which has no columns; leave it out.");
   auto read = parse_geojson(text, source, reading.flat);
+  const auto faults = notes_on_rings(read.all, source, reading.project.has_value());
   Preparation preparation(source, reading);
   for (auto& curve : read.all) preparation.take(samples_of(std::move(curve), reading));
   auto curves = std::move(preparation).curves();
+  curves.notes.insert(curves.notes.begin(), faults.begin(), faults.end());
   curves.notes.insert(curves.notes.begin(), read.notes.begin(), read.notes.end());
   return curves;
 }

@@ -447,6 +447,23 @@ class GeoJson(Program):
             self.assertTrue(model["closed"])
             self.assertLess(largest_gap(numbers(self.fine("synth", model["output"])), ring[:-1]), 1e-12)
 
+    def test_faults_of_rings_are_told_and_read(self):
+        def told(*rings):
+            path = self.file("rings.geojson", json.dumps({"type": "Polygon", "coordinates": rings}))
+            return run("fit", path, "--no-fit", "--overwrite", "-o", self.file("ring-%d.ifsm")).stderr
+
+        square = lambda low, high: [[low, low], [high, low], [high, high], [low, high], [low, low]]
+        self.assertEqual(told(square(0, 9), square(1, 2), square(3, 4)), "")
+        self.assertEqual(told(square(0, 9), square(1, 2), square(2, 4)), "")  # holes that touch are none
+        self.assertIn("coordinates[0]: this ring crosses itself 1 time, first at 1, 1;",
+                      told([[0, 0], [2, 2], [2, 0], [0, 2], [0, 0]]))
+        self.assertIn("coordinates[1]: this hole lies outside its polygon;", told(square(0, 9), square(10, 12)))
+        self.assertIn("coordinates[2]: this hole and another one of its polygon lie in each other;",
+                      told(square(0, 9), square(1, 8), square(2, 3)))
+        self.assertIn("coordinates[2]: this hole and another", told(square(0, 9), square(2, 3), square(1, 8)))
+        many = told(square(0, 9), *[square(10, 12 + k) for k in range(8)])
+        self.assertIn("10 more rings with such faults", many)
+
     def test_projected_and_back(self):
         report = json.loads(self.fine("fit", ISLANDS, "--project", "--no-fit", "--json", "-q", "-o", self.file("i-%d")))
         for model, ring in list(zip(report["models"], self.rings()))[::6]:
