@@ -59,8 +59,8 @@ class Training {
         book_(family.curves, options.start, family.budgets, options.limits, watch) {}
 
   TrainResult run() {
-    Sketches best = book_.best(options_.start->matrix(), pursuit_trials);
-    const double start = book_.judged(best);
+    Sketches start = book_.best(options_.start->matrix(), pursuit_trials);
+    Sketches best = start;
     TrainResult result;
     result.reason = TrainReason::rounds;
     while (result.rounds < options_.rounds && free_count(book_.shape()) > 0) {
@@ -72,9 +72,16 @@ class Training {
         break;
       }
     }
+    // Rounds bettered the choices as well, which is no merit of the filter: the start's have as many trials.
+    for (int round = 0; round < result.rounds; ++round) book_.pursue(start, pursuit_trials);
+    const double fall = book_.judged(start) - book_.judged(best);
+    if (!(fall > 0) || best.matrix == start.matrix) {
+      result.reason = TrainReason::start_best;
+      result.filter = options_.start;
+      return result;
+    }
     result.filter = std::make_shared<Filter>(book_.shape(), best.matrix);
-    if (best.matrix == options_.start->matrix()) result.reason = TrainReason::start_best;
-    result.ratio = mean_ratio(book_.judged(best) - start, family_);
+    result.ratio = mean_ratio(-fall, family_);
     return result;
   }
 
