@@ -107,6 +107,23 @@ void refuse_shape(const ifsm::Error& error) {
     throw Failure(Exit::Usage, std::string("--control-points, --maps: ") + error.what());
 }
 
+ifsm::Model kept_within(const ifsm::Model& model, const ifsm::Keep& rule) {
+  try {
+    return model.keep(rule);
+  } catch (const ifsm::Cancelled&) {
+    throw;
+  } catch (const ifsm::Error& error) {
+    refuse_bound(error);
+    throw;
+  }
+}
+
+void refuse_bound(const ifsm::Error& error) {
+  if (error.status != IFSM_ERROR_RANGE || (error.argument != "threshold" && error.argument != "within")) return;
+  const std::string text = error.what();
+  throw Failure(Exit::Usage, "--within: it " + text.substr(error.argument.size() + 1));
+}
+
 void require_joined(const ifsm::Filter& filter, const std::string& name) {
   if (filter.describe().topology != IFSM_TOPOLOGY_JOINED)
     throw Failure(Exit::Usage, "--filter: '" + name +

@@ -99,13 +99,13 @@ std::vector<std::string> notes_on_rings(const std::vector<GeoCurve>& curves, con
     auto points = seen_from_above(curve);
     if (degrees) unwrap(points, 2);
     if (const auto crossings = crossings_of(points); !crossings.empty())
-      notes.say(curve.place, "this ring crosses itself " + counted(crossings.size(), "time") + ", first at " +
+      notes.say(curve.place, "this ring meets itself in " + counted(crossings.size(), "place") + ", first at " +
                                  rounded(crossings[0].x) + ", " + rounded(crossings[0].y));
     auto& rings = polygons[polygon_of(curve.place)];
     if (!rings.empty() && !is_within(points, rings[0])) notes.say(curve.place, "this hole lies outside its polygon");
     for (std::size_t k = 1; k < rings.size(); ++k)
       if (is_within(points, rings[k]) || is_within(rings[k], points)) {
-        notes.say(curve.place, "this hole and another one of its polygon lie in each other");
+        notes.say(curve.place, "this hole and another one of its polygon overlap");
         break;
       }
     rings.push_back(std::move(points));

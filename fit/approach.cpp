@@ -198,17 +198,23 @@ class Approach {
   const Watch& watch_;
 };
 
+// Pulls see the middles of edges, and not what lies between.
+ModelPtr nearer(const Model& model, ModelPtr a, ModelPtr b, Distance by) {
+  return distance(*a, model, by) <= distance(*b, model, by) ? a : b;
+}
+
 }  // namespace
 
 ModelPtr approach(const Model& model, const Kept& kept, Distance distance, const Watch& watch) {
   Approach approach(model, distance, watch);
-  return approach.model_of(approach.values(approach.start(kept)));
+  const State squares = approach.start(kept);
+  return nearer(model, approach.model_of(approach.values(squares)), approach.model_of(squares), distance);
 }
 
 ModelPtr approach_choice(const Model& model, const Kept& kept, Distance distance, const Watch& watch) {
-  const ModelPtr nearest = resolve_choice(model, kept, watch);
+  const ModelPtr squares = resolve_choice(model, kept, watch);
   Approach approach(model, distance, watch);
-  return approach.model_of(approach.choice(approach.state_of(*nearest)));
+  return nearer(model, approach.model_of(approach.choice(approach.state_of(*squares))), squares, distance);
 }
 
 }  // namespace ifsm::core

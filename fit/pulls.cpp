@@ -15,6 +15,16 @@ Points once(const Points& line, bool closed) {
   return points;
 }
 
+// The points, then the middles of the edges from each of them to the next.
+Points with_middles(const Points& points, bool closed) {
+  const Index count = points.count(), edges = count < 2 ? 0 : closed ? count : count - 1;
+  Points all(points.dimension(), count + edges);
+  all.matrix().topRows(count) = points.matrix();
+  for (Index e = 0; e < edges; ++e)
+    all.matrix().row(count + e) = (points.matrix().row(e) + points.matrix().row((e + 1) % count)) / 2;
+  return all;
+}
+
 Eigen::VectorXd pulled_places(const Model& model, Distance distance) {
   if (distance == Distance::largest) return sample_weights(model);
   Eigen::VectorXd all = Eigen::VectorXd::Ones(model.shape().line_length(model.levels()));
@@ -29,8 +39,8 @@ PullingCurve::PullingCurve(const Model& model, Distance distance)
       closed_(model.closed()),
       data_(line(model, model.levels())),
       pulled_(pulled_places(model, distance)),
-      points_(once(data_, closed_)),
-      polyline_(points_, closed_) {}
+      polyline_(once(data_, closed_), closed_),
+      asked_(with_middles(once(data_, closed_), closed_)) {}
 
 Pulls PullingCurve::pulls(const Points& line) const {
   return distance_ == Distance::hausdorff ? to_polyline(line) : to_samples(line);
@@ -43,19 +53,27 @@ Pulls PullingCurve::to_samples(const Points& line) const {
 }
 
 Pulls PullingCurve::to_polyline(const Points& line) const {
-  const Points sketch = once(line, closed_);
+  const Points sketch = once(line, closed_), asked = with_middles(sketch, closed_);
   const Polyline polyline(sketch, closed_);
-  const Nearest there = nearest(polyline_, sketch), back = nearest(polyline, points_);
+  const Nearest there = nearest(polyline_, asked), back = nearest(polyline, asked_);
+  const Index count = sketch.count();
   Pulls found{line, Eigen::VectorXd::Zero(line.count()), 0};
   auto target = found.target.matrix();
-  target.topRows(sketch.count()) = there.points.matrix();
-  for (Index k = 0; k < sketch.count(); ++k) found.distance(k) = there.distances[static_cast<std::size_t>(k)];
-  for (Index s = 0; s < points_.count(); ++s) {
-    const double asked = back.distances[static_cast<std::size_t>(s)];
-    const Index place = std::lround(polyline.position(back.parameters[static_cast<std::size_t>(s)])) % sketch.count();
-    if (!(asked > found.distance(place))) continue;
-    found.distance(place) = asked;
-    target.row(place) = line.matrix().row(place) + points_.matrix().row(s) - back.points.matrix().row(s);
+  const auto pull = [&](Index place, double distance, const Eigen::RowVectorXd& way) {
+    if (!(distance > found.distance(place))) return;
+    found.distance(place) = distance;
+    target.row(place) = sketch.matrix().row(place) + way;
+  };
+  for (Index k = 0; k < asked.count(); ++k) {
+    const Eigen::RowVectorXd way = there.points.matrix().row(k) - asked.matrix().row(k);
+    const double distance = there.distances[static_cast<std::size_t>(k)];
+    pull(k % count, distance, way);
+    if (k >= count) pull((k + 1) % count, distance, way);  // the middle of an edge moves with both of its ends
+  }
+  for (Index s = 0; s < asked_.count(); ++s) {
+    const double position = polyline.position(back.parameters[static_cast<std::size_t>(s)]);
+    pull(std::lround(position) % count, back.distances[static_cast<std::size_t>(s)],
+         asked_.matrix().row(s) - back.points.matrix().row(s));
   }
   if (closed_) target.row(line.count() - 1) = target.row(0);
   found.largest = found.distance.maxCoeff();

@@ -15,7 +15,8 @@ struct Pulls {
 
 // Distance::largest: places are drawn to their samples. Distance::hausdorff: to the nearest point of the samples'
 // polyline, so that sliding along the curve costs nothing; and where a sample is farther from the sketch than its
-// nearest place is from the samples, that place moves as the sample asks, lest capes be cut off.
+// nearest place is from the samples, that place moves as the sample asks, lest capes be cut off. Middles of edges ask
+// as well.
 class PullingCurve {
  public:
   // `model` is joined.
@@ -35,8 +36,8 @@ class PullingCurve {
   bool closed_;
   Points data_;
   Eigen::VectorXd pulled_;
-  Points points_;  // of the curve, each once
   Polyline polyline_;
+  Points asked_;  // its points, and the middles of its edges
 };
 
 }  // namespace ifsm::core

@@ -464,8 +464,8 @@ enum {
 enum {
   IFSM_DISTANCE_RMS = 0,      /* root of the mean square between samples of the same number */
   IFSM_DISTANCE_LARGEST = 1,  /* the largest between them */
-  IFSM_DISTANCE_HAUSDORFF = 2 /* between the polylines through their finest places: the farthest that a place of one is
-                                 from the other; where along the curve it is does not count */
+  IFSM_DISTANCE_HAUSDORFF = 2 /* between the polylines through their finest places, edges and all: the farthest that one
+                                 is from the other, to a millionth; where along the curve it is does not count */
 };
 
 /* What becomes of the values that are kept. */
@@ -931,7 +931,7 @@ typedef struct ifsm_distances {
   double rms;      /* between samples of the same number */
   double largest;  /* between them */
   int64_t farthest; /* the number of that sample; of several the first */
-  double hausdorff; /* between the polylines through the finest places, taken at the places of both */
+  double hausdorff; /* between the polylines through the finest places, edges and all, to a millionth */
 } ifsm_distances;
 
 /* From a model to another of as many samples: its sketch, the same samples under another filter, another survey.

@@ -58,6 +58,13 @@ std::string words_of_plane(const Json& report) {
   return report.contains("middle") ? "projected to kilometres about " + middle_of(report) + "\n" : "";
 }
 
+std::string words_of_sketch(const Json& report) {
+  if (!report.contains("sketch")) return "";
+  const auto& apart = report["sketch"];
+  return "the sketch: RMS " + rounded(apart["rms"]) + ", at most " + rounded(apart["max"]) + " and Hausdorff " +
+         rounded(apart["hausdorff"]) + " from the samples\n";
+}
+
 std::string words_of_one(const Json& report) {
   const std::string text = report["input"].get<std::string>() + ": " + counted(report["samples"], "sample") +
                            ", dimension " + number(report["dimension"]) +
@@ -65,7 +72,7 @@ std::string words_of_one(const Json& report) {
                            counted(report["levels"], "level") + ", n = " + number(report["control_points"]) +
                            ", N = " + number(report["maps"]) + ", " + counted(report["bytes"], "byte") + " of " +
                            report["format"].get<std::string>() + "\n" + words_of_plane(report);
-  return report.contains("fit") ? text + words_of_fit(report["fit"]) : text;
+  return text + words_of_sketch(report) + (report.contains("fit") ? words_of_fit(report["fit"]) : "");
 }
 
 // A line a model; of a fit, its largest budget.
@@ -109,6 +116,9 @@ Json report_of(const Samples& samples, const FittedModel& fitted, const WrittenM
   if (!samples.name.empty()) report["curve"] = samples.name;
   if (samples.middle)
     report["middle"] = {{"longitude", samples.middle->longitude}, {"latitude", samples.middle->latitude}};
+  if (fitted.apart)
+    report["sketch"] = {
+        {"rms", fitted.apart->rms}, {"max", fitted.apart->largest}, {"hausdorff", fitted.apart->hausdorff}};
   if (fitted.fit) report["fit"] = json_of(*fitted.fit);
   return report;
 }

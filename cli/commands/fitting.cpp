@@ -69,6 +69,7 @@ auto naming(const std::string& curve, const Work& work) {
     throw;
   } catch (const ifsm::Error& error) {
     refuse_shape(error);
+    refuse_bound(error);
     if (curve.empty()) throw;
     throw Failure(error.status == IFSM_ERROR_RANGE ? Exit::Usage : Exit::Computing, curve + ": " + error.what());
   }
@@ -84,22 +85,27 @@ class Fitting {
 
   FittedModel model_of(std::size_t number, const ifsm::Cancel& token) {
     const auto& samples = curves_[number];
-    if (settings_.no_fit) return {unfitted(samples, number, token), std::nullopt};
+    if (settings_.no_fit) return unfitted(samples, number, token);
     auto fit = fit_of(samples, number, token);
-    auto model = settings_.sketch ? fit.sketch(0, fit.describe().budgets - 1) : fit.model(0);
-    return {std::move(model), std::move(fit)};
+    auto exact = fit.model(0);
+    if (!settings_.sketch && settings_.within == 0) return {std::move(exact), std::nullopt, std::move(fit)};
+    auto sketch = fit.sketch(0, fit.describe().budgets - 1);
+    const auto apart = exact.distance(sketch);
+    return {settings_.sketch ? std::move(sketch) : std::move(exact), apart, std::move(fit)};
   }
 
  private:
-  ifsm::Model unfitted(const Samples& samples, std::size_t number, const ifsm::Cancel& token) {
+  FittedModel unfitted(const Samples& samples, std::size_t number, const ifsm::Cancel& token) {
     ifsm::Model exact(filter_, samples.curve());
-    if (!settings_.sketch) return exact;
+    if (!settings_.sketch) return {std::move(exact), std::nullopt, std::nullopt};
     auto rule = ifsm::within(settings_.within, distance_of(settings_.distance)).resolved(ifsm::Resolve::choice);
     rule.cancelled_by(token).telling([this, number](double fraction, const std::string& stage) {
       tell(number, fraction, stage);
       return false;
     });
-    return exact.keep(rule);
+    auto sketch = kept_within(exact, rule);
+    const auto apart = exact.distance(sketch);
+    return {std::move(sketch), apart, std::nullopt};
   }
 
   ifsm::Fit fit_of(const Samples& samples, std::size_t number, const ifsm::Cancel& token) {

@@ -30,8 +30,9 @@ struct FitSettings {
 };
 
 struct FittedModel {
-  ifsm::Model model;             // as it is written
-  std::optional<ifsm::Fit> fit;  // none with no_fit
+  ifsm::Model model;                    // as it is written
+  std::optional<ifsm_distances> apart;  // of a sketch from its exact model
+  std::optional<ifsm::Fit> fit;         // none with no_fit
 };
 
 // One for each curve, each fitted alone; of several curves, those that are too small for a budget go without it.

@@ -72,7 +72,7 @@ ifsm::Model sketch_of(const ifsm::Model& model, const SynthArguments& arguments,
       progress.update(fraction, stage);
       return false;
     });
-  auto sketch = model.keep(rule);
+  auto sketch = kept_within(model, rule);
   job.confirm();
   return sketch;
 }
@@ -85,12 +85,26 @@ std::vector<double> spaced(std::int64_t count, bool closed) {
   return parameters;
 }
 
+// A bound on how curves are drawn is kept by all finest places together; samples alone may cut across.
+bool is_drawn(const SynthArguments& arguments) {
+  return arguments.within && distance_of(arguments.distance) == ifsm::Distance::hausdorff;
+}
+
+// All finest places, each once.
+std::vector<double> drawn(const ifsm::Model& model) {
+  const auto info = model.describe();
+  auto points = model.points(info.levels);
+  points.resize(static_cast<std::size_t>(info.places * info.dimension));
+  return points;
+}
+
 std::vector<double> points_of(const ifsm::Model& model, const SynthArguments& arguments) {
   const auto info = model.describe();
   if (arguments.level && *arguments.level > info.levels)
     throw Failure(Exit::Usage, "--level: the model has the levels 0 to " + std::to_string(info.levels) + ".");
   if (arguments.level) return model.points(*arguments.level);
   if (arguments.count) return model.evaluate(spaced(*arguments.count, info.closed == 1));
+  if (is_drawn(arguments)) return drawn(model);
   return model.samples();
 }
 

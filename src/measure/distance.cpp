@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "measure/nearest.h"
 
 namespace ifsm::core {
 namespace {
+
+constexpr double epsilon = 2.220446049250313e-16;
 
 void require_like(const Model& model, const Model& other) {
   if (other.dimension() != model.dimension())
@@ -38,11 +42,94 @@ double rms_of(const Eigen::VectorXd& lengths) {
   return lengths.stableNorm() / std::sqrt(static_cast<double>(lengths.size()));
 }
 
+// The farthest that a polyline goes from another one, edges and all. A point of an edge is at most as far as
+// - the ends allow, since distances change no faster than places: (d0 + d1 + length) / 2;
+// - the segment nearest to one end: the distance from a segment is convex along the edge, so the other end bounds it.
+// Edges that may hold more than what was found are halved, all at once, until none is left.
+class Farthest {
+ public:
+  Farthest(const Points& points, bool closed, const Points& others, bool others_closed)
+      : polyline_(others, others_closed), rounding_(64 * epsilon * polyline_.unit()) {
+    std::vector<Point> ends = asked(points);
+    if (closed && ends.size() > 1) ends.push_back(ends.front());
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+      if (Edge edge(ends[k], ends[k + 1]); is_open(edge)) edges_.push_back(std::move(edge));
+  }
+
+  double find() {
+    while (!edges_.empty()) {
+      halve();
+      std::erase_if(edges_, [&](const Edge& edge) { return !is_open(edge); });
+    }
+    return found_;
+  }
+
+ private:
+  static constexpr double precision = 1e-6;
+
+  struct Point {
+    Eigen::VectorXd place;
+    double distance;
+    Index segment;  // of the other, the nearest
+  };
+  using Edge = std::pair<Point, Point>;
+
+  std::vector<Point> asked(const Points& points) {
+    const Nearest there = nearest(polyline_, points);
+    std::vector<Point> told;
+    for (Index k = 0; k < points.count(); ++k) {
+      const auto position = static_cast<Index>(polyline_.position(there.parameters[static_cast<std::size_t>(k)]));
+      told.push_back({points.matrix().row(k), there.distances[static_cast<std::size_t>(k)],
+                      std::clamp<Index>(position, 0, std::max<Index>(0, polyline_.segments() - 1))});
+      found_ = std::max(found_, told.back().distance);
+    }
+    return told;
+  }
+
+  double to_segment(const Eigen::VectorXd& place, Index segment) const {
+    using Place = Eigen::Map<const Eigen::VectorXd>;
+    const Place start(polyline_.start(segment), polyline_.dimension());
+    if (polyline_.segments() == 0) return (place - start * polyline_.unit()).stableNorm();
+    const Eigen::VectorXd along = Place(polyline_.end(segment), polyline_.dimension()) - start;
+    const Eigen::VectorXd off = place / polyline_.unit() - start;
+    const double length = along.squaredNorm();
+    const double within = length > 0 ? std::clamp(off.dot(along) / length, 0.0, 1.0) : 0.0;
+    return (off - within * along).norm() * polyline_.unit();
+  }
+
+  // May it hold more than what was found?
+  bool is_open(const Edge& edge) const { return bound(edge.first, edge.second) > found_ * (1 + precision) + rounding_; }
+
+  double bound(const Point& a, const Point& b) const {
+    const double by_ends = (a.distance + b.distance + (b.place - a.place).stableNorm()) / 2;
+    if (by_ends <= found_) return by_ends;
+    return std::min({by_ends, std::max(a.distance, to_segment(b.place, a.segment)),
+                     std::max(b.distance, to_segment(a.place, b.segment))});
+  }
+
+  void halve() {
+    Points middles(polyline_.dimension(), static_cast<Index>(edges_.size()));
+    for (std::size_t k = 0; k < edges_.size(); ++k)
+      middles.matrix().row(static_cast<Index>(k)) = (edges_[k].first.place + edges_[k].second.place) / 2;
+    const std::vector<Point> told = asked(middles);
+    std::vector<Edge> halves;
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      halves.emplace_back(std::move(edges_[k].first), told[k]);
+      halves.emplace_back(told[k], std::move(edges_[k].second));
+    }
+    edges_.swap(halves);
+  }
+
+  Polyline polyline_;
+  double rounding_;  // coordinates are 1 … 2 units at most, places and feet rounded a few times
+  std::vector<Edge> edges_;
+  double found_ = 0;
+};
+
 double hausdorff(const Model& model, const Model& other) {
   const Points own = places(model), given = places(other);
-  const auto there = nearest(Polyline(given, other.closed()), own).distances;
-  const auto back = nearest(Polyline(own, model.closed()), given).distances;
-  return std::max(std::ranges::max(there), std::ranges::max(back));
+  return std::max(Farthest(own, model.closed(), given, other.closed()).find(),
+                  Farthest(given, other.closed(), own, model.closed()).find());
 }
 
 }  // namespace

@@ -6,9 +6,10 @@
 namespace ifsm::core {
 
 enum class Distance : std::int32_t {
-  rms = 0,        // root of the mean square between samples of the same number
-  largest = 1,    // the largest between them
-  hausdorff = 2,  // between the polylines through the finest places: the farthest that a point of one is from the other
+  rms = 0,      // root of the mean square between samples of the same number
+  largest = 1,  // the largest between them
+  hausdorff =
+      2,  // between the polylines through the finest places, edges and all: the farthest that one is from the other
 };
 
 struct Distances {
@@ -19,7 +20,7 @@ struct Distances {
 };
 
 // In the samples' units. A shape error unless dimensions agree and, but for Hausdorff, numbers of samples. Hausdorff
-// distances are taken at the places of both.
+// distances are found to a millionth.
 Distances distances(const Model& model, const Model& other);
 double distance(const Model& model, const Model& other, Distance which);
 

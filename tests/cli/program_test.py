@@ -455,10 +455,10 @@ class GeoJson(Program):
         square = lambda low, high: [[low, low], [high, low], [high, high], [low, high], [low, low]]
         self.assertEqual(told(square(0, 9), square(1, 2), square(3, 4)), "")
         self.assertEqual(told(square(0, 9), square(1, 2), square(2, 4)), "")  # holes that touch are none
-        self.assertIn("coordinates[0]: this ring crosses itself 1 time, first at 1, 1;",
+        self.assertIn("coordinates[0]: this ring meets itself in 1 place, first at 1, 1;",
                       told([[0, 0], [2, 2], [2, 0], [0, 2], [0, 0]]))
         self.assertIn("coordinates[1]: this hole lies outside its polygon;", told(square(0, 9), square(10, 12)))
-        self.assertIn("coordinates[2]: this hole and another one of its polygon lie in each other;",
+        self.assertIn("coordinates[2]: this hole and another one of its polygon overlap;",
                       told(square(0, 9), square(1, 8), square(2, 3)))
         self.assertIn("coordinates[2]: this hole and another", told(square(0, 9), square(2, 3), square(1, 8)))
         many = told(square(0, 9), *[square(10, 12 + k) for k in range(8)])
