@@ -199,7 +199,7 @@ class Approach {
 };
 
 // Pulls see the middles of edges, and not what lies between.
-ModelPtr nearer(const Model& model, ModelPtr a, ModelPtr b, Distance by) {
+ModelPtr nearer(const Model& model, const ModelPtr& a, const ModelPtr& b, Distance by) {
   return distance(*a, model, by) <= distance(*b, model, by) ? a : b;
 }
 

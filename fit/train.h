@@ -36,6 +36,6 @@ struct TrainResult {
 };
 
 // Deterministic, whatever the number of threads. Never worse than its start over the curves trained on.
-TrainResult train(const std::vector<FitCurve>& curves, const TrainOptions& options, Watch& watch);
+TrainResult train(const std::vector<FitCurve>& given, const TrainOptions& options, Watch& watch);
 
 }  // namespace ifsm::core
