@@ -41,7 +41,7 @@ Index count_of(const Kept& kept) { return static_cast<Index>(std::ranges::count(
 class Approach {
  public:
   Approach(const Model& model, Distance distance, const Watch& watch)
-      : model_(model), zeros_(zero_details(model)), curve_(model, distance), watch_(watch) {}
+      : model_(model), zeros_(zero_details(model)), curve_(model, distance, watch), watch_(watch) {}
 
   // Solved by least squares against the samples, as resolve() does.
   State start(const Kept& kept) const { return solved_by(solver(sample_weights(model_), kept), kept, curve_.data()); }
@@ -199,8 +199,8 @@ class Approach {
 };
 
 // Pulls see the middles of edges, and not what lies between.
-ModelPtr nearer(const Model& model, const ModelPtr& a, const ModelPtr& b, Distance by) {
-  return distance(*a, model, by) <= distance(*b, model, by) ? a : b;
+ModelPtr nearer(const Model& model, const ModelPtr& a, const ModelPtr& b, Distance by, const Watch& watch) {
+  return distance(*a, model, by, watch) <= distance(*b, model, by, watch) ? a : b;
 }
 
 }  // namespace
@@ -208,13 +208,13 @@ ModelPtr nearer(const Model& model, const ModelPtr& a, const ModelPtr& b, Distan
 ModelPtr approach(const Model& model, const Kept& kept, Distance distance, const Watch& watch) {
   Approach approach(model, distance, watch);
   const State squares = approach.start(kept);
-  return nearer(model, approach.model_of(approach.values(squares)), approach.model_of(squares), distance);
+  return nearer(model, approach.model_of(approach.values(squares)), approach.model_of(squares), distance, watch);
 }
 
 ModelPtr approach_choice(const Model& model, const Kept& kept, Distance distance, const Watch& watch) {
   const ModelPtr squares = resolve_choice(model, kept, watch);
   Approach approach(model, distance, watch);
-  return nearer(model, approach.model_of(approach.choice(approach.state_of(*squares))), squares, distance);
+  return nearer(model, approach.model_of(approach.choice(approach.state_of(*squares))), squares, distance, watch);
 }
 
 }  // namespace ifsm::core

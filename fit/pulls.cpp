@@ -34,8 +34,9 @@ Eigen::VectorXd pulled_places(const Model& model, Distance distance) {
 
 }  // namespace
 
-PullingCurve::PullingCurve(const Model& model, Distance distance)
+PullingCurve::PullingCurve(const Model& model, Distance distance, const Watch& watch)
     : distance_(distance),
+      watch_(watch),
       closed_(model.closed()),
       data_(line(model, model.levels())),
       pulled_(pulled_places(model, distance)),
@@ -55,7 +56,7 @@ Pulls PullingCurve::to_samples(const Points& line) const {
 Pulls PullingCurve::to_polyline(const Points& line) const {
   const Points sketch = once(line, closed_), asked = with_middles(sketch, closed_);
   const Polyline polyline(sketch, closed_);
-  const Nearest there = nearest(polyline_, asked), back = nearest(polyline, asked_);
+  const Nearest there = nearest(polyline_, asked, watch_), back = nearest(polyline, asked_, watch_);
   const Index count = sketch.count();
   Pulls found{line, Eigen::VectorXd::Zero(line.count()), 0};
   auto target = found.target.matrix();

@@ -20,7 +20,7 @@ struct Pulls {
 class PullingCurve {
  public:
   // `model` is joined.
-  PullingCurve(const Model& model, Distance distance);
+  PullingCurve(const Model& model, Distance distance, const Watch& watch);
 
   Pulls pulls(const Points& line) const;
 
@@ -33,6 +33,7 @@ class PullingCurve {
   Pulls to_polyline(const Points& line) const;
 
   Distance distance_;
+  const Watch& watch_;
   bool closed_;
   Points data_;
   Eigen::VectorXd pulled_;

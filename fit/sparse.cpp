@@ -99,6 +99,7 @@ class SparseFit {
           state, book_.options(std::min(options_.iterations, polish_iterations), polish_tolerance, "polish"),
           watch.part(static_cast<double>(round) / rounds, static_cast<double>(round + 1) / rounds));
       count(found);
+      if (rounds_ == 0) start_cost_ = found.start_value, final_cost_ = found.value;
       Sketches next{found.matrix, state.choices};
       book_.pursue(next, round + 1 == rounds ? last_pursuit_trials : pursuit_trials);
       const double fall = book_.judged(state) - book_.judged(next);
@@ -200,7 +201,7 @@ FilterPtr better_start(const std::vector<FitCurve>& curves, int control_points, 
   // sketches are nearer by orders of magnitude.
   Sketches a = book.most_significant(first->matrix()), b = book.most_significant(second->matrix());
   for (auto& choices : a.choices)
-    for (Choice& choice : choices) choice.squared_error /= 2;
+    for (Choice& choice : choices) choice.squared_error /= 2;  // what "plainly nearer" asks of de Casteljau's
   if (!nowhere_worse(b, a)) return first;
   a = book.best(first->matrix(), pursuit_trials), b = book.best(second->matrix(), pursuit_trials);
   return nowhere_worse(b, a) && book.judged(b) < book.judged(a) ? second : first;

@@ -31,8 +31,8 @@ Within sketches_within(const std::vector<FitCurve>& curves, const FilterPtr& fil
     Watch part = watch.part(done / count, (done + 1) / count);
     const ModelPtr& model = found.models.emplace_back(analyze(filter, curve.samples, curve.closed));
     ModelPtr sketch = keep_within(*model, tolerance.bound, Resolve::choice, tolerance.distance, part);
-    const Distances apart = distances(*sketch, *model);
-    found.sketches.push_back({std::move(sketch), apart.rms, apart.largest});
+    const double rms = distance(*sketch, *model, Distance::rms), largest = distance(*sketch, *model, Distance::largest);
+    found.sketches.push_back({std::move(sketch), rms, largest});
   }
   return found;
 }
@@ -80,6 +80,7 @@ FitResult fit_to_tolerance(const std::vector<FitCurve>& curves, const FitOptions
     result.filter = start;
     result.reason = FitReason::start_best;
     result.final_condition = result.start_condition = start->condition();
+    result.final_cost = result.start_cost;
   }
   result.models = fitted.models;
   result.budgets = rows_of(at_start, fitted);

@@ -19,8 +19,8 @@ constexpr Index roughly = 8, closely = 32;
 // Looks for the smallest count whose sketch is within the bound; a larger count is taken to be nearer.
 class Search {
  public:
-  Search(const Model& model, double bound, Distance distance)
-      : model_(model), bound_(bound), distance_(distance), enough_(model.details_total()) {}
+  Search(const Model& model, double bound, Distance distance, const Watch& watch)
+      : model_(model), bound_(bound), distance_(distance), watch_(watch), enough_(model.details_total()) {}
 
   // sketch(count) makes one; `watch` hears how far the search is.
   template <class Sketch>
@@ -35,10 +35,9 @@ class Search {
   // Until the count is known to one in `part`, or exactly.
   template <class Sketch>
   void halve(const Sketch& sketch, Index part, Watch watch) {
-    const double first = std::log(static_cast<double>(enough_ - too_few_));
+    const double first = width();
     while (!is_known_to(part)) {
-      const double left = std::log(static_cast<double>(enough_ - too_few_));
-      watch.report(first > 0 ? 1 - left / first : 1, "search");
+      watch.report(1 - width() / first, "search");
       try_count(too_few_ + (enough_ - too_few_) / 2, sketch);
     }
   }
@@ -46,10 +45,9 @@ class Search {
   // The same where a try is dear: distances fall about as one over the count.
   template <class Sketch>
   void aim(const Sketch& sketch, Index part, Index first, Watch watch) {
-    const double wide = std::log(static_cast<double>(enough_ - too_few_));
+    const double wide = width();
     for (Index next = first; !is_known_to(part);) {
-      const double left = std::log(static_cast<double>(enough_ - too_few_));
-      watch.report(wide > 0 ? 1 - left / wide : 1, "search");
+      watch.report(1 - width() / wide, "search");
       const Index count = std::clamp(next, too_few_ + 1, enough_ - 1);
       try_count(count, sketch);
       next = static_cast<Index>(std::ceil(static_cast<double>(count) * std::pow(last_ / bound_, 0.8)));
@@ -62,12 +60,15 @@ class Search {
   const ModelPtr& found() const { return found_; }  // none: all details are needed
 
  private:
+  // Of what the count may be; above zero as long as it is not known.
+  double width() const { return std::log(static_cast<double>(enough_ - too_few_)); }
+
   bool is_known_to(Index part) const { return enough_ - too_few_ <= std::max<Index>(1, enough_ / part); }
 
   template <class Sketch>
   bool try_count(Index count, const Sketch& sketch) {
     ModelPtr made = sketch(count);
-    last_ = distance(*made, model_, distance_);
+    last_ = distance(*made, model_, distance_, watch_);
     if (last_ <= bound_) {
       enough_ = count;
       found_ = std::move(made);
@@ -80,6 +81,7 @@ class Search {
   const Model& model_;
   double bound_;
   Distance distance_;
+  const Watch& watch_;
   Index too_few_ = -1;  // the largest count known to be
   Index enough_;        // the smallest
   double last_ = 0;
@@ -89,7 +91,7 @@ class Search {
 bool is_squares(const Model& model, Distance distance) { return distance == Distance::rms || !model.shape().joined(); }
 
 ModelPtr found_within(const Model& model, double bound, Resolve how, Distance distance, Watch& watch) {
-  Search search(model, bound, distance);
+  Search search(model, bound, distance, watch);
   const auto sketches = [&](Resolve by, Distance what) {
     return [&, by, what](Index count) { return resolved(model, most_significant(model, count), by, what, watch); };
   };
@@ -148,7 +150,7 @@ ModelPtr keep_levels_within(const Model& model, double bound, Resolve how, Dista
   for (int levels = 0; levels < model.levels(); ++levels) {
     watch.report(static_cast<double>(levels) / model.levels(), "search");
     ModelPtr sketch = resolved(model, first_levels(model, levels), how, distance, watch);
-    if (core::distance(*sketch, model, distance) <= bound) return sketch;
+    if (core::distance(*sketch, model, distance, watch) <= bound) return sketch;
   }
   return std::make_shared<Model>(model.parts());
 }

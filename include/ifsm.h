@@ -584,7 +584,8 @@ typedef struct ifsm_fit_report {
   int64_t curves;
   int64_t budgets;
   int64_t iterations;     /* Levenberg-Marquardt iterations, all rounds */
-  double start_cost;      /* the stage's objective, of the start (sparse: sparsity, of the last round) */
+  double start_cost;      /* the stage's objective, of the start (sparse: sparsity, of its last round; without
+                             any, the sketches' weighted squared error, of the last polish) */
   double final_cost;      /* and of the result */
   double start_condition; /* condition number of R */
   double final_condition;

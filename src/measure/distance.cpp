@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,13 +12,13 @@
 namespace ifsm::core {
 namespace {
 
-constexpr double epsilon = 2.220446049250313e-16;
-
 void require_like(const Model& model, const Model& other) {
   if (other.dimension() != model.dimension())
     throw Error(Status::shape, "other",
                 "other is a curve of dimension " + std::to_string(other.dimension()) + ", the model one of dimension " +
-                    std::to_string(model.dimension()) + "; compare curves of one dimension.");
+                    std::to_string(model.dimension()) + "; compare curves of one dimension.")
+        .with(static_cast<double>(other.dimension()))
+        .needs(model.dimension());
 }
 
 void require_as_many_samples(const Model& model, const Model& other) {
@@ -35,6 +36,12 @@ Eigen::VectorXd at_samples(const Model& model, const Model& other) {
   const Eigen::MatrixXd apart = samples(model).matrix() - samples(other).matrix();
   Eigen::VectorXd lengths(apart.rows());
   for (Index k = 0; k < apart.rows(); ++k) lengths(k) = apart.row(k).stableNorm();
+  for (Index k = 0; k < lengths.size(); ++k)
+    if (!std::isfinite(lengths(k)))
+      throw Error(Status::numerical, "other",
+                  "The curves' samples " + std::to_string(k) +
+                      " are farther from each other than a double can tell; scale both curves down.")
+          .at(k);
   return lengths;
 }
 
@@ -48,8 +55,10 @@ double rms_of(const Eigen::VectorXd& lengths) {
 // Edges that may hold more than what was found are halved, all at once, until none is left.
 class Farthest {
  public:
-  Farthest(const Points& points, bool closed, const Points& others, bool others_closed)
-      : polyline_(others, others_closed), rounding_(64 * epsilon * polyline_.unit()) {
+  Farthest(const Points& points, bool closed, const Points& others, bool others_closed, const Watch& watch)
+      : watch_(watch),
+        polyline_(others, others_closed),
+        rounding_(64 * std::numeric_limits<double>::epsilon() * polyline_.unit()) {
     std::vector<Point> ends = asked(points);
     if (closed && ends.size() > 1) ends.push_back(ends.front());
     for (std::size_t k = 0; k + 1 < ends.size(); ++k)
@@ -75,7 +84,7 @@ class Farthest {
   using Edge = std::pair<Point, Point>;
 
   std::vector<Point> asked(const Points& points) {
-    const Nearest there = nearest(polyline_, points);
+    const Nearest there = nearest(polyline_, points, watch_);
     std::vector<Point> told;
     for (Index k = 0; k < points.count(); ++k) {
       const auto position = static_cast<Index>(polyline_.position(there.parameters[static_cast<std::size_t>(k)]));
@@ -120,16 +129,17 @@ class Farthest {
     edges_.swap(halves);
   }
 
+  const Watch& watch_;
   Polyline polyline_;
   double rounding_;  // coordinates are 1 … 2 units at most, places and feet rounded a few times
   std::vector<Edge> edges_;
   double found_ = 0;
 };
 
-double hausdorff(const Model& model, const Model& other) {
+double hausdorff(const Model& model, const Model& other, const Watch& watch) {
   const Points own = places(model), given = places(other);
-  return std::max(Farthest(own, model.closed(), given, other.closed()).find(),
-                  Farthest(given, other.closed(), own, model.closed()).find());
+  return std::max(Farthest(own, model.closed(), given, other.closed(), watch).find(),
+                  Farthest(given, other.closed(), own, model.closed(), watch).find());
 }
 
 }  // namespace
@@ -139,15 +149,15 @@ Distances distances(const Model& model, const Model& other) {
   const Eigen::VectorXd lengths = at_samples(model, other);
   Index farthest = 0;
   const double largest = lengths.maxCoeff(&farthest);
-  return {rms_of(lengths), largest, farthest, hausdorff(model, other)};
+  return {rms_of(lengths), largest, farthest, hausdorff(model, other, {})};
 }
 
-double distance(const Model& model, const Model& other, Distance which) {
+double distance(const Model& model, const Model& other, Distance which, const Watch& watch) {
   require_like(model, other);
   switch (which) {
     case Distance::rms: return rms_of(at_samples(model, other));
     case Distance::largest: return at_samples(model, other).maxCoeff();
-    default: return hausdorff(model, other);
+    default: return hausdorff(model, other, watch);
   }
 }
 

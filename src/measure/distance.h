@@ -1,6 +1,7 @@
 // How far two curves are from each other.
 #pragma once
 
+#include "base/cancel.h"
 #include "measure/polyline.h"
 
 namespace ifsm::core {
@@ -20,8 +21,8 @@ struct Distances {
 };
 
 // In the samples' units. A shape error unless dimensions agree and, but for Hausdorff, numbers of samples. Hausdorff
-// distances are found to a millionth.
+// distances are found to a millionth. A numerical error when no double holds a distance.
 Distances distances(const Model& model, const Model& other);
-double distance(const Model& model, const Model& other, Distance which);
+double distance(const Model& model, const Model& other, Distance which, const Watch& watch = {});
 
 }  // namespace ifsm::core

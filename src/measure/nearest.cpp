@@ -129,12 +129,13 @@ void tell(const Polyline& polyline, const Best& best, Index query, Nearest& answ
 }
 
 template <int D, class Find>
-Nearest nearest_of_each(const Polyline& polyline, const Points& queries, const Find& find) {
+Nearest nearest_of_each(const Polyline& polyline, const Points& queries, const Watch& watch, const Find& find) {
   constexpr Index chunk = 256;
   const Index count = queries.count();
   Nearest answer{std::vector<double>(static_cast<std::size_t>(count)),
                  std::vector<double>(static_cast<std::size_t>(count)), Points(D, count)};
   parallel_for((count + chunk - 1) / chunk, 0, [&](Index part) {
+    watch.poll();
     Best last;  // queries are often neighbours, and so is what is near them
     for (Index q = part * chunk; q < std::min((part + 1) * chunk, count); ++q) {
       last = find(in_units<D>(queries, q, polyline.unit()), last.segment);
@@ -152,16 +153,16 @@ Nearest nearest_of_each(const Polyline& polyline, const Points& queries, const F
 }
 
 template <int D>
-Nearest by_tree(const Polyline& polyline, const Points& queries) {
+Nearest by_tree(const Polyline& polyline, const Points& queries, const Watch& watch) {
   const Boxes boxes(polyline);
-  return nearest_of_each<D>(polyline, queries, [&](const Vector<D>& query, Index guess) {
+  return nearest_of_each<D>(polyline, queries, watch, [&](const Vector<D>& query, Index guess) {
     return Search<D>(polyline, boxes, query, guess).best();
   });
 }
 
 template <int D>
-Nearest by_all(const Polyline& polyline, const Points& queries) {
-  return nearest_of_each<D>(polyline, queries, [&](const Vector<D>& query, Index) {
+Nearest by_all(const Polyline& polyline, const Points& queries, const Watch& watch) {
+  return nearest_of_each<D>(polyline, queries, watch, [&](const Vector<D>& query, Index) {
     Best best;
     for (Index segment = 0; segment < polyline.segments(); ++segment) compare<D>(polyline, segment, query, best);
     if (polyline.segments() > 0) return best;
@@ -175,33 +176,39 @@ Nearest by_all(const Polyline& polyline, const Points& queries) {
 }
 
 template <template <int> class Way>
-Nearest of_dimension(const Polyline& polyline, const Points& queries) {
+Nearest of_dimension(const Polyline& polyline, const Points& queries, const Watch& watch) {
   if (queries.dimension() != polyline.dimension())
     throw Error(Status::shape, "queries",
                 "queries must be points of dimension " + std::to_string(polyline.dimension()) + ", as the curve is.");
   switch (polyline.dimension()) {
-    case 1: return Way<1>::find(polyline, queries);
-    case 2: return Way<2>::find(polyline, queries);
-    case 3: return Way<3>::find(polyline, queries);
-    default: return Way<4>::find(polyline, queries);
+    case 1: return Way<1>::find(polyline, queries, watch);
+    case 2: return Way<2>::find(polyline, queries, watch);
+    case 3: return Way<3>::find(polyline, queries, watch);
+    default: return Way<4>::find(polyline, queries, watch);
   }
 }
 
 template <int D>
 struct Tree {
-  static Nearest find(const Polyline& polyline, const Points& queries) {
-    return polyline.segments() > 0 ? by_tree<D>(polyline, queries) : by_all<D>(polyline, queries);
+  static Nearest find(const Polyline& polyline, const Points& queries, const Watch& watch) {
+    return polyline.segments() > 0 ? by_tree<D>(polyline, queries, watch) : by_all<D>(polyline, queries, watch);
   }
 };
 template <int D>
 struct All {
-  static Nearest find(const Polyline& polyline, const Points& queries) { return by_all<D>(polyline, queries); }
+  static Nearest find(const Polyline& polyline, const Points& queries, const Watch& watch) {
+    return by_all<D>(polyline, queries, watch);
+  }
 };
 
 }  // namespace
 
-Nearest nearest(const Polyline& polyline, const Points& queries) { return of_dimension<Tree>(polyline, queries); }
+Nearest nearest(const Polyline& polyline, const Points& queries, const Watch& watch) {
+  return of_dimension<Tree>(polyline, queries, watch);
+}
 
-Nearest plain::nearest(const Polyline& polyline, const Points& queries) { return of_dimension<All>(polyline, queries); }
+Nearest plain::nearest(const Polyline& polyline, const Points& queries) {
+  return of_dimension<All>(polyline, queries, {});
+}
 
 }  // namespace ifsm::core

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/cancel.h"
 #include "measure/polyline.h"
 
 namespace ifsm::core {
@@ -14,8 +15,9 @@ struct Nearest {
 };
 
 // For each query, in the samples' units. Of points equally near the one of the smallest parameter: what comparing with
-// all segments, in their order, finds, to the bit. A tree of boxes, queries shared among the threads.
-Nearest nearest(const Polyline& polyline, const Points& queries);
+// all segments, in their order, finds, to the bit. A tree of boxes, queries shared among the threads,
+// all of which poll.
+Nearest nearest(const Polyline& polyline, const Points& queries, const Watch& watch = {});
 
 // The same by comparing with all segments: what the tree is tested against.
 namespace plain {

@@ -138,6 +138,8 @@ TEST(Cpp, MakesOtherModels) {
   EXPECT_EQ(model.keep(ifsm::first_levels(1)).describe().details_kept, 2);
   EXPECT_EQ(model.keep(ifsm::above(1e300)).describe().details_kept, 0);
   EXPECT_LE(model.keep(ifsm::most_significant(7).resolved()).describe().details_kept, 7);
+  EXPECT_LE(model.distance(model.keep(ifsm::within(0.05, ifsm::Distance::hausdorff))).hausdorff, 0.05);
+  EXPECT_LE(model.distance(model.keep(ifsm::levels_within(0.05, ifsm::Distance::largest))).largest, 0.05);
   EXPECT_EQ(ifsm::Model::from_polygon(model.filter(), {polygon, 2}, 3).describe().samples, 17);
 }
 
@@ -222,6 +224,10 @@ TEST(Cpp, IsCancelledByACallbackOrAToken) {
   token.request();
   EXPECT_TRUE(token.requested());
   EXPECT_THROW(wavy_model().keep(ifsm::most_significant(3).cancelled_by(token)), ifsm::Cancelled);
+  const auto stop = [](double, const std::string&) { return true; };
+  EXPECT_THROW(wavy_model().keep(ifsm::within(0.05).telling(stop)), ifsm::Cancelled);
+  const auto fail = [](double, const std::string&) -> bool { throw std::domain_error("mine"); };
+  EXPECT_THROW(wavy_model().keep(ifsm::within(0.05).telling(fail)), std::domain_error) << "comes out unchanged";
 }
 
 TEST(Cpp, RefusesPointsThatAreNotWhole) {

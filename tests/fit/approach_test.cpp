@@ -36,7 +36,7 @@ TEST(Pulls, AreAsFarAsTheCurvesAre) {
     const ModelPtr model = analyze(casteljau(4), closed ? loop(100, 2, 1) : walk(100, 2, 1), closed);
     const ModelPtr sketch = keep(*model, most_significant(*model, 20));
     for (const Distance by : distances_of_places) {
-      const Pulls pulls = PullingCurve(*model, by).pulls(line(*sketch, sketch->levels()));
+      const Pulls pulls = PullingCurve(*model, by, Watch()).pulls(line(*sketch, sketch->levels()));
       // The same distances from the centre as in the samples' coordinates, but for rounding of those; edges do not
       // pull.
       const double apart = distance(*sketch, *model, by), rounding = 1e-13 * model->parts().diagonal;
@@ -52,7 +52,8 @@ TEST(Pulls, AreAsFarAsTheCurvesAre) {
 TEST(Pulls, OfACurveToItselfAreNone) {
   const ModelPtr model = analyze(casteljau(4), walk(65, 2, 2), false);
   for (const Distance by : distances_of_places) {
-    const PullingCurve curve(*model, by);
+    const Watch watch;
+    const PullingCurve curve(*model, by, watch);
     const Pulls pulls = curve.pulls(curve.data());
     const double rounding = 1e-14 * model->parts().diagonal;  // of the middles of edges
     EXPECT_LE(pulls.largest, rounding);

@@ -33,6 +33,16 @@ double rms(const Model& model, const Points& wanted) {
   return std::sqrt((samples(model).matrix() - wanted.matrix()).rowwise().squaredNorm().mean());
 }
 
+TEST(SparseFit, TellsThePolishsCostsWhereItHasNoSparsity) {
+  FitOptions options;
+  options.budgets = {128};  // from coast: sparsity is spared
+  Watch watch;
+  const FitResult fit = fit_sparse({{walk(1025, 2, 1), false}}, options, watch);
+  EXPECT_GT(fit.start_cost, 0);
+  EXPECT_LE(fit.final_cost, fit.start_cost);
+  EXPECT_GT(fit.final_cost, 0);
+}
+
 TEST(SparseFit, IsNeverWorseThanItsStartAtAnyBudgetAsked) {
   for (unsigned seed = 1; seed <= 6; ++seed) {
     const bool closed = seed % 2 == 0;

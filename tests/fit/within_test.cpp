@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
+#include "../curve/support.h"
 #include "curve/scale.h"
 #include "curves.h"
 
 using namespace ifsm::core;
+using ifsm::core::testing::refusal;
 
 namespace {
 
@@ -20,17 +21,6 @@ ModelPtr model_of(const Points& samples, bool closed = false) { return analyze(d
 ModelPtr within(const Model& model, double bound, Resolve how, Distance distance) {
   Watch watch;
   return keep_within(model, bound, how, distance, watch);
-}
-
-template <class Call>
-Error refusal(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "was taken";
-  return Error(Status::ok, "", "");
 }
 
 TEST(KeepWithin, KeepsItsBoundByEveryDistanceAndWayOfSolving) {
@@ -130,6 +120,14 @@ TEST(KeepWithin, TellsProgressThatNeverGoesBackAndStopsWhenAsked) {
   EXPECT_GT(told, 5);
   Watch stopping(nullptr, [](double fraction, const char*) { return fraction > 0.2; });
   EXPECT_THROW(keep_within(*model, 1, Resolve::choice, Distance::hausdorff, stopping), Cancelled);
+}
+
+TEST(KeepWithin, StopsInTheMiddleOfADistance) {
+  const ModelPtr model = model_of(walk(513, 2, 8));
+  CancelToken token;
+  token.request();
+  const Watch watch(&token, {});
+  EXPECT_THROW(distance(*model, *model, Distance::hausdorff, watch), Cancelled);
 }
 
 TEST(KeepLevelsWithin, KeepsTheFirstLevelsThatSuffice) {

@@ -124,7 +124,15 @@ TEST(Distance, IsRefusedForCurvesThatAreNotAlike) {
   const Error count = refusal([&] { distances(*model, *longer); });
   EXPECT_EQ(count.status(), Status::shape);
   EXPECT_EQ(count.argument(), "other");
-  EXPECT_EQ(refusal([&] { distances(*model, *in_space); }).status(), Status::shape);
+  EXPECT_EQ(count.required(), 9);
+  const Error dimension = refusal([&] { distances(*model, *in_space); });
+  EXPECT_EQ(dimension.status(), Status::shape);
+  EXPECT_EQ(dimension.value(), 3);
+  const ModelPtr far = model_of(moved(straight(9), 1.5e308, 0)), farther = model_of(moved(straight(9), -1.5e308, 0));
+  const Error no_double = refusal([&] { distances(*far, *farther); });
+  EXPECT_EQ(no_double.status(), Status::numerical);
+  EXPECT_EQ(no_double.argument(), "other");
+  EXPECT_EQ(no_double.index(), 0);
   EXPECT_GT(distance(*model, *longer, Distance::hausdorff), 0) << "needs no samples of the same number";
 }
 
