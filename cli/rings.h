@@ -9,8 +9,9 @@
 
 namespace cli {
 
-// Rings that cross themselves; holes outside their shell, and holes within another hole. Seen from above, in the
-// coordinates as they are, but for degrees: a ring goes on across the 180th meridian.
+// Rings that meet themselves; holes outside their shell, or only partly in it; holes that overlap, and polygons of one
+// MultiPolygon that do, one within the other or partly. Seen from above, in the coordinates as they are, but for
+// degrees: a ring goes on across the 180th meridian.
 std::vector<std::string> notes_on_rings(const std::vector<GeoCurve>& curves, const std::string& source, bool degrees);
 
 }  // namespace cli

@@ -44,7 +44,7 @@ class Approach {
       : model_(model), zeros_(zero_details(model)), curve_(model, distance, watch), watch_(watch) {}
 
   // Solved by least squares against the samples, as resolve() does.
-  State start(const Kept& kept) const { return solved_by(solver(sample_weights(model_), kept), kept, curve_.data()); }
+  State start(const Kept& kept) const { return solved_by(solver(place_weights(model_), kept), kept, curve_.data()); }
 
   // Of all states that were met, the nearest.
   State values(State state) const {
@@ -102,9 +102,10 @@ class Approach {
 
   // Reweighted least squares for the p-norm: the weights that make its gradient that of a weighted square.
   Eigen::VectorXd weights(const Pulls& pulls, double power) const {
-    if (!(pulls.largest > 0)) return curve_.pulled();
+    const Eigen::VectorXd squares = curve_.counted().cwiseAbs2();
+    if (!(pulls.largest > 0)) return squares;
     const Eigen::ArrayXd relative = (pulls.distance / pulls.largest).array();
-    return relative.pow(power - 2).max(least_weight).matrix().cwiseProduct(curve_.pulled());
+    return relative.pow(power - 2).max(least_weight).matrix().cwiseProduct(squares);
   }
 
   double norm(const Pulls& pulls, double power) const {

@@ -147,7 +147,7 @@ class CurveFit {
     result.start_condition = start_->condition();
     result.final_condition = result.filter->condition();
     result.certainty = std::make_shared<Certainty>(certainty(best));
-    watch_.report(1.0, "done");
+    watch_.finish();
     return result;
   }
 

@@ -84,7 +84,7 @@ class FilterFit {
     result.final_cost = found.value;
     result.start_condition = start_->condition();
     result.final_condition = result.filter->condition();
-    watch_.report(1.0, "done");
+    watch_.finish();
     return result;
   }
 

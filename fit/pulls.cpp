@@ -25,8 +25,8 @@ Points with_middles(const Points& points, bool closed) {
   return all;
 }
 
-Eigen::VectorXd pulled_places(const Model& model, Distance distance) {
-  if (distance == Distance::largest) return sample_weights(model);
+Eigen::VectorXd counted_by(const Model& model, Distance distance) {
+  if (distance == Distance::largest) return counted_distances(model);
   Eigen::VectorXd all = Eigen::VectorXd::Ones(model.shape().line_length(model.levels()));
   if (model.closed()) all(all.size() - 1) = 0;
   return all;
@@ -39,7 +39,7 @@ PullingCurve::PullingCurve(const Model& model, Distance distance, const Watch& w
       watch_(watch),
       closed_(model.closed()),
       data_(line(model, model.levels())),
-      pulled_(pulled_places(model, distance)),
+      counted_(counted_by(model, distance)),
       polyline_(once(data_, closed_), closed_),
       asked_(with_middles(once(data_, closed_), closed_)) {}
 
@@ -48,7 +48,7 @@ Pulls PullingCurve::pulls(const Points& line) const {
 }
 
 Pulls PullingCurve::to_samples(const Points& line) const {
-  Eigen::VectorXd distance = (data_.matrix() - line.matrix()).rowwise().norm().cwiseProduct(pulled_);
+  Eigen::VectorXd distance = (data_.matrix() - line.matrix()).rowwise().norm().cwiseProduct(counted_);
   const double largest = distance.maxCoeff();
   return {data_, std::move(distance), largest};
 }

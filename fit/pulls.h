@@ -9,14 +9,14 @@ namespace ifsm::core {
 
 struct Pulls {
   Points target;
-  Eigen::VectorXd distance;  // 0 where nothing pulls
+  Eigen::VectorXd distance;  // what counts of it; 0 where nothing pulls
   double largest;
 };
 
-// Distance::largest: places are drawn to their samples. Distance::hausdorff: to the nearest point of the samples'
-// polyline, so that sliding along the curve costs nothing; and where a sample is farther from the sketch than its
-// nearest place is from the samples, that place moves as the sample asks, lest capes be cut off. Middles of edges ask
-// as well.
+// Distance::largest: places are drawn to their samples; those between samples count less (resolve.h).
+// Distance::hausdorff: to the nearest point of the samples' polyline, so that sliding along the curve costs nothing;
+// and where a sample is farther from the sketch than its nearest place is from the samples, that place moves as the
+// sample asks, lest capes be cut off. Middles of edges ask as well.
 class PullingCurve {
  public:
   // `model` is joined.
@@ -24,9 +24,9 @@ class PullingCurve {
 
   Pulls pulls(const Points& line) const;
 
-  // The curve's own finest line, and 1 for each place that is pulled.
+  // The curve's own finest line, and what counts of each place's distance.
   const Points& data() const { return data_; }
-  const Eigen::VectorXd& pulled() const { return pulled_; }
+  const Eigen::VectorXd& counted() const { return counted_; }
 
  private:
   Pulls to_samples(const Points& line) const;
@@ -36,7 +36,7 @@ class PullingCurve {
   const Watch& watch_;
   bool closed_;
   Points data_;
-  Eigen::VectorXd pulled_;
+  Eigen::VectorXd counted_;
   Polyline polyline_;
   Points asked_;  // its points, and the middles of its edges
 };

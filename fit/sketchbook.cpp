@@ -21,7 +21,7 @@ Sketchbook::Job::Job(const Model& start)
       levels(start.levels()),
       blank(start.parts()),
       placement(start.placement()),
-      solver(start.shape(), start.levels(), start.closed(), sample_weights(start)) {
+      solver(start.shape(), start.levels(), start.closed(), place_weights(start)) {
   blank.details.clear();
 }
 
@@ -69,7 +69,7 @@ Sketches Sketchbook::best(const RowMatrix& matrix, int trials) {
 void Sketchbook::pursue(Sketches& sketches, int trials) {
   each_curve([&](std::size_t c) {
     for (Choice& choice : sketches.choices[c])
-      choice = pursued(jobs_[c].solver, sketches.matrix, std::move(choice), jobs_[c].line, trials, watch_);
+      choice = pursued(jobs_[c].solver, sketches.matrix, choice, jobs_[c].line, trials, watch_);
   });
 }
 
@@ -88,8 +88,20 @@ double Sketchbook::judged(const Sketches& sketches) const {
   return sum;
 }
 
-bool Sketchbook::is_worse(std::size_t curve, const Choice& sketch, const Choice& other) const {
-  return sketch.squared_error > std::max(other.squared_error, rounding(jobs_[curve]));
+double Sketchbook::squared_at_samples(Job& job, const RowMatrix& matrix, const Choice& choice) {
+  job.solver.factor(matrix, choice.kept, watch_);
+  const Points curve = job.placement.pick(job.solver.curve(choice.solution, watch_));
+  return (curve.matrix() - job.placement.pick(job.line).matrix()).squaredNorm();
+}
+
+bool Sketchbook::is_anywhere_worse(const Sketches& sketches, const Sketches& others, double part) {
+  for (std::size_t c = 0; c < curves(); ++c)
+    for (std::size_t b = 0; b < budgets_[c].size(); ++b) {
+      const double own = squared_at_samples(jobs_[c], sketches.matrix, sketches.choices[c][b]);
+      const double other = squared_at_samples(jobs_[c], others.matrix, others.choices[c][b]);
+      if (own > std::max(part * other, rounding(jobs_[c]))) return true;
+    }
+  return false;
 }
 
 // ε follows the error: half of it, for each value that is kept.

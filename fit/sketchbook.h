@@ -43,8 +43,9 @@ class Sketchbook {
 
   // Σ log squared error: budgets and curves of all sizes count alike. Errors below rounding are all the same.
   double judged(const Sketches& sketches) const;
-  // Is a sketch farther from its curve than another, and not by rounding?
-  bool is_worse(std::size_t curve, const Choice& sketch, const Choice& other) const;
+  // Is any sketch farther from its samples than the other of its curve and budget, and not by rounding? (`part`: than
+  // that part of the other's squared error.) Places between samples, which solving counts a little, do not matter.
+  bool is_anywhere_worse(const Sketches& sketches, const Sketches& others, double part = 1);
 
   // One minimisation of the sparsity objective, its scales following the errors of `plain`.
   Minimised made_sparse(const Sketches& plain, const MinimiseOptions& options, Watch watch);
@@ -70,6 +71,7 @@ class Sketchbook {
   void each_curve(const Body& body);
   double scale(const Job& job, double squared_error, Index budget) const;
   double rounding(const Job& job) const;
+  double squared_at_samples(Job& job, const RowMatrix& matrix, const Choice& choice);
   std::vector<std::vector<double>> weights(const Sketches& sketches) const;
 
   const std::vector<FitCurve>& curves_;

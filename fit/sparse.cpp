@@ -68,10 +68,8 @@ class SparseFit {
     return spared ? 0 : sparse_rounds;
   }
 
-  void consider(const Sketches& candidate, const Sketches& start, Sketches& best) const {
-    for (std::size_t c = 0; c < curves_.size(); ++c)
-      for (std::size_t b = 0; b < budgets_.size(); ++b)
-        if (book_.is_worse(c, candidate.choices[c][b], start.choices[c][b])) return;
+  void consider(const Sketches& candidate, const Sketches& start, Sketches& best) {
+    if (book_.is_anywhere_worse(candidate, start)) return;
     if (book_.judged(candidate) < book_.judged(best)) best = candidate;
   }
 
@@ -143,7 +141,6 @@ class SparseFit {
     result.final_cost = final_cost_;
     result.start_condition = book_.start()->condition();
     result.final_condition = result.filter->condition();
-    watch_.report(1.0, "done");
     return result;
   }
 
@@ -191,20 +188,12 @@ FilterPtr better_start(const std::vector<FitCurve>& curves, int control_points, 
   if (first->matrix() == second->matrix()) return first;
   const auto budgets = std::vector(curves.size(), budgets_or_default(curves, first->shape(), options.budgets));
   Sketchbook book(curves, first, budgets, Limits{}, watch);
-  const auto nowhere_worse = [&](const Sketches& b, const Sketches& a) {
-    for (std::size_t c = 0; c < curves.size(); ++c)
-      for (std::size_t k = 0; k < budgets[c].size(); ++k)
-        if (book.is_worse(c, b.choices[c][k], a.choices[c][k])) return false;
-    return true;
-  };
   // Bettering choices takes long, and rough curves are seen to be rough without it: of smooth ones de Casteljau's
   // sketches are nearer by orders of magnitude.
   Sketches a = book.most_significant(first->matrix()), b = book.most_significant(second->matrix());
-  for (auto& choices : a.choices)
-    for (Choice& choice : choices) choice.squared_error /= 2;  // what "plainly nearer" asks of de Casteljau's
-  if (!nowhere_worse(b, a)) return first;
+  if (book.is_anywhere_worse(b, a, 0.5)) return first;
   a = book.best(first->matrix(), pursuit_trials), b = book.best(second->matrix(), pursuit_trials);
-  return nowhere_worse(b, a) && book.judged(b) < book.judged(a) ? second : first;
+  return !book.is_anywhere_worse(b, a) && book.judged(b) < book.judged(a) ? second : first;
 }
 
 FitResult fit_from(const std::vector<FitCurve>& curves, FilterPtr start, const FitOptions& options, Watch& watch) {
@@ -269,6 +258,7 @@ FitResult fit_sparse(const std::vector<FitCurve>& curves, const FitOptions& opti
       row.fitted = scaled(row.fitted, near.exponents[c]);
     }
   }
+  watch.finish();
   return result;
 }
 

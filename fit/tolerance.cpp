@@ -84,7 +84,7 @@ FitResult fit_to_tolerance(const std::vector<FitCurve>& curves, const FitOptions
   }
   result.models = fitted.models;
   result.budgets = rows_of(at_start, fitted);
-  watch.report(1.0, "done");
+  watch.finish();
   return result;
 }
 

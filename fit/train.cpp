@@ -143,7 +143,7 @@ TrainResult train(const std::vector<FitCurve>& given, const TrainOptions& option
   result.held_out = static_cast<Index>(held_out.curves.size());
   result.sketches = trained.sketches;
   result.held_out_ratio = judge(held_out, options.start, result.filter, watch);
-  watch.report(1.0, "done");
+  watch.finish();
   return result;
 }
 

@@ -75,26 +75,38 @@ std::string words_of_one(const Json& report) {
   return text + words_of_sketch(report) + (report.contains("fit") ? words_of_fit(report["fit"]) : "");
 }
 
-// A line a model; of a fit, its largest budget.
+std::vector<std::string> headings_of_result(const Json& model) {
+  if (model.contains("sketch")) return {"details", "RMS", "max", "Hausdorff"};
+  if (model.contains("fit")) return {"budget", "start RMS", "fitted RMS"};
+  return {};
+}
+
+// What the sketch keeps, and how far it is; else, of a fit, its largest budget.
+std::vector<std::string> result_of(const Json& model) {
+  const auto row = model.contains("fit") ? model["fit"]["budgets"].back() : Json();
+  if (model.contains("sketch")) {
+    const auto& apart = model["sketch"];
+    return {number(row.is_null() ? model["details_kept"] : row["details"]), rounded(apart["rms"]),
+            rounded(apart["max"]), rounded(apart["hausdorff"])};
+  }
+  if (row.is_null()) return {};
+  return {number(row["budget"]), rounded(row["start_rms"]), rounded(row["rms"])};
+}
+
+// A line a model.
 std::string words_of_several(const Json& report) {
+  const auto& models = report["models"];
+  std::vector<std::string> headings{"model", "curve", "samples", "dimension", "", "bytes"};
+  if (models.front().contains("middle")) headings.emplace_back("middle");
+  for (auto& heading : headings_of_result(models.front())) headings.push_back(std::move(heading));
   std::vector<std::vector<std::string>> rows;
-  bool any_fit = false;
-  const bool projected = report["models"].front().contains("middle");
-  for (const auto& model : report["models"]) {
+  for (const auto& model : models) {
     rows.push_back({model["output"].get<std::string>(), printable(model.value("curve", "")), number(model["samples"]),
                     number(model["dimension"]), model["closed"] ? "closed" : "open", number(model["bytes"])});
-    if (projected) rows.back().push_back(middle_of(model));
-    if (!model.contains("fit")) continue;
-    any_fit = true;
-    const auto& row = model["fit"]["budgets"].back();
-    for (const auto& cell : {number(row["budget"]), rounded(row["start_rms"]), rounded(row["rms"])})
-      rows.back().push_back(cell);
+    if (model.contains("middle")) rows.back().push_back(middle_of(model));
+    for (auto& cell : result_of(model)) rows.back().push_back(std::move(cell));
   }
-  std::vector<std::string> headings{"model", "curve", "samples", "dimension", "", "bytes"};
-  if (projected) headings.emplace_back("middle");
-  if (any_fit)
-    for (const auto* heading : {"budget", "start RMS", "fitted RMS"}) headings.emplace_back(heading);
-  return report["input"].get<std::string>() + ": " + counted(report["models"].size(), "curve") + "\n\n" +
+  return report["input"].get<std::string>() + ": " + counted(models.size(), "curve") + "\n\n" +
          aligned(headings, rows, 2);
 }
 

@@ -35,6 +35,7 @@ Watch Watch::part(double from, double to) {
     return false;
   });
   result.stage_ = stage_;
+  result.part_ = true;
   return result;
 }
 

@@ -40,6 +40,9 @@ class Watch {
   // static.
   void report(double fraction, const char* stage);
 
+  // Reports 1, and "done" unless this watch is a part of another.
+  void finish() { report(1.0, part_ ? stage_ : "done"); }
+
   // Everything reported through the result lies in [from, to] of this watch, and is in its stage until it reports one.
   Watch part(double from, double to);
 
@@ -51,7 +54,8 @@ class Watch {
   Progress progress_;
   std::thread::id owner_;
   double reported_ = 0;
-  const char* stage_ = "start";      // before the first report
+  const char* stage_ = "start";  // before the first report
+  bool part_ = false;
   mutable Clock::time_point asked_;  // the owner's
 };
 

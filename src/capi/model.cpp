@@ -267,7 +267,9 @@ ifsm_status ifsm_model_keep(ifsm_model handle, const ifsm_keep_options* given, i
     required(kept, "kept");
     Watch watch(token.get(), progress_of(options));
     watch.poll();
-    issue(kept_model(*model, options, watch), *kept);
+    ModelPtr sketch = kept_model(*model, options, watch);
+    watch.finish();
+    issue(std::move(sketch), *kept);
   });
 }
 

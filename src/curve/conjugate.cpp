@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "curve/resolve.h"
 #include "curve/significance.h"
 #include "curve/transform.h"
 
@@ -13,10 +14,12 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-// The linear map from the free values (control points, then kept details, of one coordinate) to the samples.
-class SampleMap {
+// The linear map from the free values (control points, then kept details, of one coordinate) to what counts at the
+// places.
+class PlaceMap {
  public:
-  SampleMap(const Model& model, const Kept& kept) : model_(model) {
+  PlaceMap(const Model& model, const Kept& kept)
+      : model_(model), counted_(counted_distances(model).head(model.placement().places())) {
     for (std::size_t i = 0; i < kept.size(); ++i)
       if (kept[i]) kept_.push_back(static_cast<Index>(i));
     scale_unknowns();
@@ -34,18 +37,17 @@ class SampleMap {
       synthesize_level(model_.filter(), span(line), level_of(details, level), {fine.data(), size(fine)});
       line = std::move(fine);
     }
-    Vector samples = Vector::Zero(model_.placement().samples());
     Vector places = Vector::Zero(readings_.size());
     for (Index i = 0; i < line.size(); ++i) places(place_of(i)) += line(i);
     places.array() /= readings_.array();
-    for (Index k = 0; k < samples.size(); ++k) samples(k) = places(model_.placement().place(k));
-    return samples;
+    return counted(places);
   }
 
-  Vector adjoint(const Vector& samples) const {
-    Vector places = Vector::Zero(readings_.size());
-    for (Index k = 0; k < samples.size(); ++k) places(model_.placement().place(k)) += samples(k);
-    places.array() /= readings_.array();
+  // What counts of values at the places.
+  Vector counted(const Vector& places) const { return places.cwiseProduct(counted_); }
+
+  Vector adjoint(const Vector& values) const {
+    const Vector places = (values.array() * counted_.array() / readings_.array()).matrix();
     Vector line(shape().line_length(model_.levels()));
     for (Index i = 0; i < line.size(); ++i) line(i) = places(place_of(i));
     const int n = shape().control_points(), d = shape().details_per_node(), rows = shape().rows();
@@ -119,13 +121,14 @@ class SampleMap {
   }
 
   const Model& model_;
+  Vector counted_;
   std::vector<Index> kept_;
   Vector scale_;
   Vector readings_;
 };
 
 // CGLS: the least-norm minimiser of |map x - b|, to rounding.
-Vector least_squares(const SampleMap& map, const Vector& b, const Watch& watch) {
+Vector least_squares(const PlaceMap& map, const Vector& b, const Watch& watch) {
   constexpr double enough = 1e-15;  // of |map| |residual|: what rounding leaves of a gradient that is zero
   Vector x = Vector::Zero(map.unknowns()), residual = b, gradient = map.adjoint(b), direction = gradient;
   double gamma = gradient.squaredNorm(), norm = 0;
@@ -149,21 +152,21 @@ Vector least_squares(const SampleMap& map, const Vector& b, const Watch& watch) 
   return x;
 }
 
-// The curve at the samples, from the centre: differences of such are exact to the curve's own size.
-Points centred_samples(const Model& model) {
-  return model.placement().pick(lay(model.shape(), model.closed(), line(model, model.levels()), model.levels()));
+// The curve, from the centre: differences of such are exact to the curve's own size.
+Points centred_places(const Model& model) {
+  return lay(model.shape(), model.closed(), line(model, model.levels()), model.levels());
 }
 
 }  // namespace
 
 ModelPtr conjugate_resolve(const Model& model, const Model& sketch, const Kept& kept, const Watch& watch) {
-  const SampleMap map(model, kept);
-  const Points wanted = centred_samples(model), now = centred_samples(sketch);
+  const PlaceMap map(model, kept);
+  const Points wanted = centred_places(model), now = centred_places(sketch);
   ModelParts parts = sketch.parts();
   std::vector<Points> details;
   for (const auto& level : parts.details) details.push_back(*level);
   for (Index axis = 0; axis < model.dimension(); ++axis) {
-    const Vector missing = wanted.matrix().col(axis) - now.matrix().col(axis);
+    const Vector missing = map.counted(wanted.matrix().col(axis) - now.matrix().col(axis));
     map.add(least_squares(map, missing, watch), axis, parts, details);
   }
   for (std::size_t level = 0; level < details.size(); ++level)

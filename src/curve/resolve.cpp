@@ -35,16 +35,21 @@ ModelPtr corrected(const Model& sketch, const Kept& kept, const Solution& correc
 }
 
 TreeSolver solver_of(const Model& model) {
-  return {model.shape(), model.levels(), model.closed(), sample_weights(model)};
+  return {model.shape(), model.levels(), model.closed(), place_weights(model)};
 }
 
 }  // namespace
 
-Eigen::VectorXd sample_weights(const Model& model) {
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(model.shape().line_length(model.levels()));
-  for (Index k = 0; k < model.placement().samples(); ++k) weights(model.placement().place(k)) = 1;
-  return weights;
+Eigen::VectorXd counted_distances(const Model& model) {
+  Eigen::VectorXd counted = Eigen::VectorXd::Zero(model.shape().line_length(model.levels()));
+  counted.head(model.placement().places()).setConstant(between_samples);
+  for (Index k = 0; k < model.placement().samples(); ++k) counted(model.placement().place(k)) = 1;
+  return counted;
 }
+
+Eigen::VectorXd place_weights(const Model& model) { return counted_distances(model).cwiseAbs2(); }
+
+Eigen::VectorXd sample_weights(const Model& model) { return (counted_distances(model).array() == 1).cast<double>(); }
 
 ModelPtr resolve(const Model& model, const Kept& kept, const Watch& watch) {
   if (const int exponent = exponent_to_remove(model.parts().diagonal))
@@ -98,15 +103,15 @@ Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, con
   return {kept, std::move(solution), squared_error};
 }
 
-Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Points& data, int trials,
+Choice pursued(TreeSolver& solver, const RowMatrix& filter, const Choice& start, const Points& data, int trials,
                const Watch& watch) {
   constexpr double better = 1 - 1e-9;
   const auto count = static_cast<Index>(std::ranges::count(start.kept, char{1}));
   const auto all = static_cast<Index>(start.kept.size());
-  Choice best = std::move(start);
+  // solver holds the factors of the last solved choice: `best` at first. `start` may have been solved under another
+  // filter.
+  Choice best = solved(solver, filter, start.kept, data, watch);
   if (count == 0 || count == all) return best;
-  // solver holds the factors of the last solved choice: `best` at first.
-  best = solved(solver, filter, best.kept, data, watch);
   std::vector<double> scores = solver.scores(data, best.solution, watch);
   Index step = std::max<Index>(1, count / 4);
   for (int trial = 0; trial < trials && step > 0; ++trial) {

@@ -6,16 +6,28 @@
 
 namespace ifsm::core {
 
-// The model whose kept values are solved by least squares against `model`'s samples; others are zero. Joined: exactly;
+// Between samples a curve is taken to be straight, and there it is a guess: a place counts a tenth of its distance, so
+// a hundredth of its square. Without it, sketches of nearly as many details as samples leave those places to
+// themselves: 2500 details of Iceland's 3059 samples went 40 000 km out to sea, 141 m from the samples; so they stay
+// within 3 km, and where details are few nothing changes.
+inline constexpr double between_samples = 0.1;
+
+// What counts of the distance at each place of the finest line: 1 at samples, between_samples between them, 0 where a
+// joined ring's last place repeats its first.
+Eigen::VectorXd counted_distances(const Model& model);
+// Its squares: what least squares weigh places by.
+Eigen::VectorXd place_weights(const Model& model);
+// 1 at samples, 0 elsewhere.
+Eigen::VectorXd sample_weights(const Model& model);
+
+// The model whose kept values are solved by least squares against `model`'s places; others are zero. Joined: exactly;
 // square: by conjugate gradients.
 ModelPtr resolve(const Model& model, const Kept& kept, const Watch& watch);
 
 // A better choice of as many details, then solved (joined; square: the choice stays). Never worse than `kept`.
 ModelPtr resolve_choice(const Model& model, const Kept& kept, const Watch& watch);
 
-// The pieces, for the fit: what a joined model's samples ask of the finest line.
-Eigen::VectorXd sample_weights(const Model& model);
-
+// The pieces, for the fit.
 struct Choice {
   Kept kept;
   Solution solution;
@@ -30,7 +42,7 @@ ModelPtr solved_model(ModelParts parts, const std::vector<PointsPtr>& zeros, con
 Choice solved(TreeSolver& solver, const RowMatrix& filter, const Kept& kept, const Points& data, const Watch& watch);
 // Subspace pursuit, at most `trials` rounds: adds the details that would help most, drops those that help least, keeps
 // what is better.
-Choice pursued(TreeSolver& solver, const RowMatrix& filter, Choice start, const Points& data, int trials,
+Choice pursued(TreeSolver& solver, const RowMatrix& filter, const Choice& start, const Points& data, int trials,
                const Watch& watch);
 
 // `count` details gathered from none, those first that help most beside what is there: a start that does not trust the

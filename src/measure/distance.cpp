@@ -59,10 +59,11 @@ class Farthest {
       : watch_(watch),
         polyline_(others, others_closed),
         rounding_(64 * std::numeric_limits<double>::epsilon() * polyline_.unit()) {
-    std::vector<Point> ends = asked(points);
-    if (closed && ends.size() > 1) ends.push_back(ends.front());
-    for (std::size_t k = 0; k + 1 < ends.size(); ++k)
-      if (Edge edge(ends[k], ends[k + 1]); is_open(edge)) edges_.push_back(std::move(edge));
+    const Nearest there = asked(points);
+    const Index count = points.count(), edges = closed ? count : count - 1;
+    for (Index k = 0; k < edges; ++k)
+      if (Edge edge(told(points, there, k), told(points, there, (k + 1) % count)); is_open(edge))
+        edges_.push_back(edge);
   }
 
   double find() {
@@ -76,31 +77,34 @@ class Farthest {
  private:
   static constexpr double precision = 1e-6;
 
+  using Place = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 4, 1>;
+
   struct Point {
-    Eigen::VectorXd place;
+    Place place;
     double distance;
     Index segment;  // of the other, the nearest
   };
   using Edge = std::pair<Point, Point>;
 
-  std::vector<Point> asked(const Points& points) {
-    const Nearest there = nearest(polyline_, points, watch_);
-    std::vector<Point> told;
-    for (Index k = 0; k < points.count(); ++k) {
-      const auto position = static_cast<Index>(polyline_.position(there.parameters[static_cast<std::size_t>(k)]));
-      told.push_back({points.matrix().row(k), there.distances[static_cast<std::size_t>(k)],
-                      std::clamp<Index>(position, 0, std::max<Index>(0, polyline_.segments() - 1))});
-      found_ = std::max(found_, told.back().distance);
-    }
-    return told;
+  Nearest asked(const Points& points) {
+    Nearest there = nearest(polyline_, points, watch_);
+    found_ = std::max(found_, *std::ranges::max_element(there.distances));
+    return there;
   }
 
-  double to_segment(const Eigen::VectorXd& place, Index segment) const {
-    using Place = Eigen::Map<const Eigen::VectorXd>;
-    const Place start(polyline_.start(segment), polyline_.dimension());
+  // Not kept for all: of ten million points few are at edges that may hold more.
+  Point told(const Points& points, const Nearest& there, Index k) const {
+    const auto segment = static_cast<Index>(polyline_.position(there.parameters[static_cast<std::size_t>(k)]));
+    return {points.matrix().row(k), there.distances[static_cast<std::size_t>(k)],
+            std::clamp<Index>(segment, 0, std::max<Index>(0, polyline_.segments() - 1))};
+  }
+
+  double to_segment(const Place& place, Index segment) const {
+    using At = Eigen::Map<const Place>;
+    const At start(polyline_.start(segment), polyline_.dimension());
     if (polyline_.segments() == 0) return (place - start * polyline_.unit()).stableNorm();
-    const Eigen::VectorXd along = Place(polyline_.end(segment), polyline_.dimension()) - start;
-    const Eigen::VectorXd off = place / polyline_.unit() - start;
+    const Place along = At(polyline_.end(segment), polyline_.dimension()) - start;
+    const Place off = place / polyline_.unit() - start;
     const double length = along.squaredNorm();
     const double within = length > 0 ? std::clamp(off.dot(along) / length, 0.0, 1.0) : 0.0;
     return (off - within * along).norm() * polyline_.unit();
@@ -120,11 +124,12 @@ class Farthest {
     Points middles(polyline_.dimension(), static_cast<Index>(edges_.size()));
     for (std::size_t k = 0; k < edges_.size(); ++k)
       middles.matrix().row(static_cast<Index>(k)) = (edges_[k].first.place + edges_[k].second.place) / 2;
-    const std::vector<Point> told = asked(middles);
+    const Nearest there = asked(middles);
     std::vector<Edge> halves;
     for (std::size_t k = 0; k < edges_.size(); ++k) {
-      halves.emplace_back(std::move(edges_[k].first), told[k]);
-      halves.emplace_back(told[k], std::move(edges_[k].second));
+      const Point middle = told(middles, there, static_cast<Index>(k));
+      halves.emplace_back(edges_[k].first, middle);
+      halves.emplace_back(middle, edges_[k].second);
     }
     edges_.swap(halves);
   }

@@ -105,6 +105,20 @@ TEST(Watch, APartIsInTheStageOfTheWholeUntilItReports) {
   EXPECT_EQ(told, "first");
 }
 
+TEST(Watch, IsDoneWhenTheWholeIsAndNotWhenAPartIs) {
+  std::vector<std::pair<double, std::string>> told;
+  Watch whole(nullptr, [&](double fraction, const char* stage) {
+    told.emplace_back(fraction, stage);
+    return false;
+  });
+  Watch part = whole.part(0, 0.5);
+  part.report(0.5, "first");
+  part.finish();
+  whole.finish();
+  using Told = std::pair<double, std::string>;
+  EXPECT_EQ(told, (std::vector<Told>{{0.25, "first"}, {0.5, "first"}, {1.0, "done"}}));
+}
+
 TEST(Watch, AsksTheCallbackOnItsOwnThreadAlone) {
   int asked = 0;
   const Watch watch(nullptr, [&](double, const char*) { return ++asked > 0; });

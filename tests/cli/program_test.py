@@ -462,7 +462,29 @@ class GeoJson(Program):
                       told(square(0, 9), square(1, 8), square(2, 3)))
         self.assertIn("coordinates[2]: this hole and another", told(square(0, 9), square(2, 3), square(1, 8)))
         many = told(square(0, 9), *[square(10, 12 + k) for k in range(8)])
-        self.assertIn("10 more rings with such faults", many)
+        self.assertIn("10 more faults of rings like these", many)
+        self.assertIn("coordinates[1]: this hole sticks out of its polygon;", told(square(0, 9), square(8, 12)))
+        notch = [[0, 0], [9, 0], [9, 9], [5, 9], [5, 4], [4, 4], [4, 9], [0, 9], [0, 0]]
+        self.assertIn("coordinates[1]: this hole sticks out", told(notch, square(3, 6)))
+        bar = lambda x, y: [[-x, -y], [x, -y], [x, y], [-x, y], [-x, -y]]
+        self.assertIn("coordinates[2]: this hole and another", told(square(-9, 9), bar(5, 1), bar(1, 5)))
+
+    def test_polygons_of_one_shape_are_held_against_each_other(self):
+        def told(*polygons):
+            path = self.file("rings.geojson", json.dumps({"type": "MultiPolygon", "coordinates": polygons}))
+            return run("fit", path, "--no-fit", "--overwrite", *options, "-o", self.file("ring-%d.ifsm")).stderr
+
+        options = []
+        square = lambda low, high: [[low, low], [high, low], [high, high], [low, high], [low, low]]
+        self.assertEqual(told([square(0, 2)], [square(3, 5)], [square(5, 7)]), "")  # the last two touch
+        self.assertEqual(told([square(0, 9), square(2, 6)], [square(3, 5)]), "")  # an island in a lake
+        self.assertEqual(told([square(3, 5)], [square(0, 9), square(2, 6)]), "")
+        for polygons in ([square(0, 9)], [square(3, 5)]), ([square(3, 5)], [square(0, 9)]), ([square(0, 4)], [square(3, 9)]):
+            self.assertIn("coordinates[1][0]: this polygon and another one of its MultiPolygon overlap;", told(*polygons))
+        options = ["--project=180,0"]
+        shell = [[170, 0], [-170, 0], [-170, 9], [170, 9], [170, 0]]
+        lake = [[-179, 2], [-178, 2], [-178, 3], [-179, 3], [-179, 2]]
+        self.assertNotIn("hole", told([shell, lake]))
 
     def test_projected_and_back(self):
         report = json.loads(self.fine("fit", ISLANDS, "--project", "--no-fit", "--json", "-q", "-o", self.file("i-%d")))

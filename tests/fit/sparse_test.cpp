@@ -219,6 +219,17 @@ TEST(SparseFit, IsNotHeldBackByABudgetThatLeavesNoError) {
   EXPECT_LT(both.budgets[0][0].fitted.rms, 1.1 * alone.budgets[0][0].fitted.rms);
 }
 
+// No details: the control points are all there is to solve, and they must be solved under the filter that is told.
+TEST(SparseFit, SolvesControlPointsAloneUnderTheFittedFilter) {
+  const Points points = walk(50, 2, 4);
+  const FitResult fit = fitted({{points, false}}, quick({5, 20}));
+  const FitBudget& none = fit.budgets[0][0];
+  EXPECT_EQ(none.details, 0);
+  EXPECT_LE(none.fitted.rms, none.start.rms * (1 + 1e-12));
+  const ModelPtr again = resolve(*fit.models[0], Kept(static_cast<std::size_t>(fit.models[0]->details_total()), 0), {});
+  EXPECT_NEAR(rms(*again, points), none.fitted.rms, 1e-12 * diagonal(points));
+}
+
 TEST(SparseFit, ToldProgressGrowsFromZeroToOne) {
   std::vector<double> told;
   Watch watch(nullptr, [&](double fraction, const char*) {
