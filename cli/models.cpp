@@ -102,7 +102,20 @@ ifsm::Filter start_filter(const std::string& name, int control_points, int maps)
 
 std::string file_of_filter(const std::string& filter) { return is_path(filter) ? filter : std::string(); }
 
+void refuse_budget(const ifsm::Error& error) {
+  if (error.status != IFSM_ERROR_RANGE || error.argument != "budgets") return;
+  const std::string asked = "--budget: " + shortest(error.value), needed = std::to_string(error.required);
+  if (error.value > static_cast<double>(error.required))
+    throw Failure(Exit::Usage, asked + " is more than the curve's model holds, " + needed +
+                                   " control points and details; give at most that.");
+  throw Failure(Exit::Usage,
+                asked + " is too few: a sketch holds the " + needed + " control points at least; give that or more.");
+}
+
 void refuse_shape(const ifsm::Error& error) {
+  for (const auto& [argument, option] : {std::pair{"control_points", "--control-points"}, {"maps", "--maps"}})
+    if (error.status == IFSM_ERROR_RANGE && error.argument == argument)
+      throw Failure(Exit::Usage, option + (": it" + std::string(error.what()).substr(error.argument.size())));
   if (error.status == IFSM_ERROR_LIMIT && error.argument == "start")
     throw Failure(Exit::Usage, std::string("--control-points, --maps: ") + error.what());
 }

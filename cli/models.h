@@ -25,6 +25,8 @@ ifsm::Filter start_filter(const std::string& name, int control_points, int maps)
 std::string file_of_filter(const std::string& filter);
 // Of what a fit or a training refused: a filter with too many entries. Throws Failure{Usage}, or nothing.
 void refuse_shape(const ifsm::Error& error);
+// The same for a budget that the curve, or the shape, cannot hold.
+void refuse_budget(const ifsm::Error& error);
 // model.keep(rule); a bound that is refused is called as the option is. Throws Failure{Usage}, ifsm::Error.
 ifsm::Model kept_within(const ifsm::Model& model, const ifsm::Keep& rule);
 void refuse_bound(const ifsm::Error& error);

@@ -119,7 +119,7 @@ class Meetings {
     return found == own_.end() ? OfOne{} : found->second;
   }
   bool meet(Pair rings) const { return met_.contains(rings); }
-  // Through each other's edges, not only at points.
+  // Through each other's edges.
   bool cross(Pair rings) const { return crossed_.contains(rings); }
 
  private:
@@ -165,26 +165,43 @@ bool is_inside(const double* point, const Ring& ring) {
   return inside;
 }
 
-bool is_point_of(const double* point, const Ring& ring) {
-  for (std::size_t i = 0; i < ring.points.size(); i += 2)
-    if (ring.points[i] == point[0] && ring.points[i + 1] == point[1]) return true;
+// On an edge, as far as rounding tells.
+bool is_on(const double* point, const Ring& ring) {
+  constexpr double rounding = 1e-12;  // of the edge's length
+  const auto& p = ring.points;
+  for (std::size_t i = 0, before = p.size() - 2; i < p.size(); before = i, i += 2) {
+    const double x = p[i] - p[before], y = p[i + 1] - p[before + 1];
+    const double to_x = point[0] - p[before], to_y = point[1] - p[before + 1];
+    const double square = x * x + y * y, along = x * to_x + y * to_y;
+    if (along >= -rounding * square && along <= (1 + rounding) * square &&
+        std::abs(x * to_y - y * to_x) <= rounding * square)
+      return true;
+  }
   return false;
+}
+
+// Its points and the middles of its edges.
+std::vector<double> probes(const Ring& ring) {
+  std::vector<double> all;
+  const auto& p = ring.points;
+  for (std::size_t i = 0, before = p.size() - 2; i < p.size(); before = i, i += 2)
+    all.insert(all.end(), {p[i], p[i + 1], (p[before] + p[i]) / 2, (p[before + 1] + p[i + 1]) / 2});
+  return all;
 }
 
 enum class Side { Outside, Across, Inside };
 
-// Where a ring lies with respect to another one. Where they do not meet, any point tells; rings may touch.
+// Where a ring lies with respect to another one; touching does not count, and a ring along the whole of the other is
+// across it. Where they do not meet, any point tells.
 Side side_of(const Ring& ring, const Ring& other, bool meet, bool cross) {
   if (cross) return Side::Across;
-  if (!meet && !is_within(ring.box, other.box)) return Side::Outside;
-  std::size_t inside = 0, outside = 0;
-  for (std::size_t i = 0; i < ring.points.size(); i += 2) {
-    if (is_point_of(&ring.points[i], other)) continue;
-    ++(is_inside(&ring.points[i], other) ? inside : outside);
-    if (!meet) break;
-  }
-  if (inside > 0 && outside > 0) return Side::Across;
-  return outside > 0 ? Side::Outside : Side::Inside;
+  if (!meet)
+    return is_within(ring.box, other.box) && is_inside(ring.points.data(), other) ? Side::Inside : Side::Outside;
+  bool inside = false, outside = false;
+  const std::vector<double> all = probes(ring);
+  for (std::size_t i = 0; i < all.size() && !(inside && outside); i += 2)
+    if (!is_on(&all[i], other)) (is_inside(&all[i], other) ? inside : outside) = true;
+  return inside == outside ? Side::Across : inside ? Side::Inside : Side::Outside;
 }
 
 class Notes {
@@ -249,7 +266,7 @@ class Judge {
     const Side to_shell = side(hole, shell);
     if (to_shell == Side::Outside) notes_.say(rings_[hole], "this hole lies outside its polygon");
     if (to_shell == Side::Across || (to_shell == Side::Inside && side(shell, hole) == Side::Across))
-      notes_.say(rings_[hole], "this hole sticks out of its polygon");
+      notes_.say(rings_[hole], "this hole does not lie within its polygon, or only in part");
     if (std::ranges::any_of(others, [&](std::size_t other) { return overlap(hole, other); }))
       notes_.say(rings_[hole], "this hole and another one of its polygon overlap");
   }

@@ -30,7 +30,8 @@ void require_budgets(const std::vector<Index>& budgets, const Shape& shape, cons
                     std::to_string(smallest - curves.begin()) + ", with " + std::to_string(smallest->samples.count()) +
                     " samples, holds " + std::to_string(most) + " vectors: give at most that, or leave the curve out.")
         .at(static_cast<Index>(b))
-        .with(static_cast<double>(budgets[b]));
+        .with(static_cast<double>(budgets[b]))
+        .needs(most);
   }
 }
 
@@ -40,9 +41,10 @@ void require_least_budgets(const std::vector<Index>& budgets, const Shape& shape
     throw Error(Status::range, "budgets",
                 "budgets[" + std::to_string(b) + "] is " + std::to_string(budgets[b]) +
                     "; a sketch holds the control points at least, which are " +
-                    std::to_string(shape.control_points()) + ".")
+                    std::to_string(shape.control_points()) + ": give that or more.")
         .at(static_cast<Index>(b))
-        .with(static_cast<double>(budgets[b]));
+        .with(static_cast<double>(budgets[b]))
+        .needs(shape.control_points());
   }
 }
 

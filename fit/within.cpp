@@ -16,48 +16,68 @@ namespace {
 constexpr Index exactly = std::numeric_limits<Index>::max();
 constexpr Index roughly = 8, closely = 32;
 
+// How sketches of a count of details are made.
+struct Way {
+  Resolve how;
+  Distance by;
+
+  friend bool operator==(const Way&, const Way&) = default;
+};
+
 // Looks for the smallest count whose sketch is within the bound; a larger count is taken to be nearer.
 class Search {
  public:
   Search(const Model& model, double bound, Distance distance, const Watch& watch)
       : model_(model), bound_(bound), distance_(distance), watch_(watch), enough_(model.details_total()) {}
 
-  // sketch(count) makes one; `watch` hears how far the search is.
-  template <class Sketch>
-  void double_up(const Sketch& sketch, Watch watch) {
+  // `watch` hears how far the search is.
+  void double_up(Way way, Watch watch) {
     for (Index count = 0; count < enough_; count = count == 0 ? 1 : 2 * count) {
       watch.report(std::log2(1.0 + static_cast<double>(count)) / std::log2(1.0 + static_cast<double>(enough_)),
                    "search");
-      if (try_count(count, sketch)) return;
+      if (try_count(count, way)) return;
     }
   }
 
   // Until the count is known to one in `part`, or exactly.
-  template <class Sketch>
-  void halve(const Sketch& sketch, Index part, Watch watch) {
+  void halve(Way way, Index part, Watch watch) {
     const double first = width();
     while (!is_known_to(part)) {
       watch.report(1 - width() / first, "search");
-      try_count(too_few_ + (enough_ - too_few_) / 2, sketch);
+      try_count(too_few_ + (enough_ - too_few_) / 2, way);
     }
   }
 
   // The same where a try is dear: distances fall about as one over the count.
-  template <class Sketch>
-  void aim(const Sketch& sketch, Index part, Index first, Watch watch) {
+  void aim(Way way, Index part, Index first, Watch watch) {
     const double wide = width();
     for (Index next = first; !is_known_to(part);) {
       watch.report(1 - width() / wide, "search");
       const Index count = std::clamp(next, too_few_ + 1, enough_ - 1);
-      try_count(count, sketch);
+      try_count(count, way);
       next = static_cast<Index>(std::ceil(static_cast<double>(count) * std::pow(last_ / bound_, 0.8)));
       if (next == count || next <= too_few_ || next >= enough_) next = too_few_ + (enough_ - too_few_) / 2;
     }
   }
 
+  // Where a larger count need not be nearer: does half of what is known to be enough do, or three quarters?
+  bool is_doubtful(Way way) {
+    for (const Index part : {enough_ / 2, enough_ * 3 / 4})
+      if (part < too_few_ && try_count(part, way)) return true;
+    return false;
+  }
+
   void forget_too_few() { too_few_ = -1; }
   Index enough() const { return enough_; }
-  const ModelPtr& found() const { return found_; }  // none: all details are needed
+
+  // Found in another way than the one that is asked for, a sketch is made in that way as well, and the nearer one
+  // taken.
+  ModelPtr found(Way asked) {
+    if (!found_) return std::make_shared<Model>(model_.parts());  // all details are needed
+    if (found_way_ == asked) return found_;
+    const ModelPtr other = made(enough_, asked);
+    return distance(*other, model_, distance_, watch_) <= distance(*found_, model_, distance_, watch_) ? other : found_;
+  }
 
  private:
   // Of what the count may be; above zero as long as it is not known.
@@ -65,13 +85,17 @@ class Search {
 
   bool is_known_to(Index part) const { return enough_ - too_few_ <= std::max<Index>(1, enough_ / part); }
 
-  template <class Sketch>
-  bool try_count(Index count, const Sketch& sketch) {
-    ModelPtr made = sketch(count);
-    last_ = distance(*made, model_, distance_, watch_);
+  ModelPtr made(Index count, Way way) const {
+    return resolved(model_, most_significant(model_, count), way.how, way.by, watch_);
+  }
+
+  bool try_count(Index count, Way way) {
+    ModelPtr sketch = made(count, way);
+    last_ = distance(*sketch, model_, distance_, watch_);
     if (last_ <= bound_) {
       enough_ = count;
-      found_ = std::move(made);
+      found_ = std::move(sketch);
+      found_way_ = way;
       return true;
     }
     too_few_ = count;
@@ -86,32 +110,35 @@ class Search {
   Index enough_;        // the smallest
   double last_ = 0;
   ModelPtr found_;
+  Way found_way_{};
 };
 
 bool is_squares(const Model& model, Distance distance) { return distance == Distance::rms || !model.shape().joined(); }
 
 ModelPtr found_within(const Model& model, double bound, Resolve how, Distance distance, Watch& watch) {
   Search search(model, bound, distance, watch);
-  const auto sketches = [&](Resolve by, Distance what) {
-    return [&, by, what](Index count) { return resolved(model, most_significant(model, count), by, what, watch); };
-  };
-  const auto found = [&] { return search.found() ? search.found() : std::make_shared<Model>(model.parts()); };
+  const Way asked{how, distance}, as_they_are{Resolve::none, distance};
   // Values as they are, which cost nothing to try, bound the count from above.
-  search.double_up(sketches(Resolve::none, distance), watch.part(0, 0.03));
-  search.halve(sketches(Resolve::none, distance), exactly, watch.part(0.03, 0.06));
-  if (how == Resolve::none) return found();
+  search.double_up(as_they_are, watch.part(0, 0.03));
+  search.halve(as_they_are, exactly, watch.part(0.03, 0.06));
+  if (how == Resolve::none) return search.found(asked);
   search.forget_too_few();
   if (how == Resolve::values || is_squares(model, distance)) {
-    search.double_up(sketches(how, distance), watch.part(0.06, 0.5));
-    search.halve(sketches(how, distance), exactly, watch.part(0.5, 1));
-    return found();
+    search.double_up(asked, watch.part(0.06, 0.5));
+    search.halve(asked, exactly, watch.part(0.5, 1));
+    return search.found(asked);
   }
   // And so does what is chosen for the mean square, which is fast.
-  search.double_up(sketches(how, Distance::rms), watch.part(0.06, 0.15));
-  search.halve(sketches(how, Distance::rms), roughly, watch.part(0.15, 0.3));
+  const Way squares{how, Distance::rms};
+  search.double_up(squares, watch.part(0.06, 0.15));
+  search.halve(squares, roughly, watch.part(0.15, 0.3));
   search.forget_too_few();
-  search.aim(sketches(how, distance), closely, search.enough() / 2, watch.part(0.3, 1));
-  return found();
+  search.aim(asked, closely, search.enough() / 2, watch.part(0.3, 0.7));
+  while (search.is_doubtful(asked)) {
+    search.forget_too_few();
+    search.aim(asked, closely, search.enough() / 2, watch.part(0.7, 1));
+  }
+  return search.found(asked);
 }
 
 }  // namespace
@@ -119,7 +146,7 @@ ModelPtr found_within(const Model& model, double bound, Resolve how, Distance di
 void require_bound(double bound, double diagonal, const char* argument) {
   require_finite(&bound, 1, argument);
   const double least = 1e-12 * diagonal;
-  if (bound >= least) return;
+  if (bound >= least || !std::isfinite(least)) return;  // analysis refuses such curves
   throw Error(Status::range, argument,
               std::string(argument) + " is " + text_of(bound) + "; models promise their samples within " +
                   text_of(least) + " (1e-12 of the diagonal): give at least that.")

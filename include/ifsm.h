@@ -472,7 +472,7 @@ enum {
 enum {
   IFSM_RESOLVE_NONE = 0,   /* they stay as analysis gave them */
   IFSM_RESOLVE_VALUES = 1, /* control points and kept details are solved anew: least squares against the samples, and
-                              against the straight lines between them, where a place counts a hundredth: it would fly
+                              against the straight lines between them, where a place counts a quarter: it would fly
                               off if nothing held it */
   IFSM_RESOLVE_CHOICE = 2  /* and which details are kept is bettered, their number staying: the nearest sketch found, the
                               slowest (joined; square: as VALUES); ifsm_fit_sketch has the one that a fit ended with */

@@ -143,7 +143,8 @@ void add_settings(CLI::App& command, FitSettings& settings) {
   command.add_option("--maps", settings.maps, "Pieces that a polygon is cut into, N (default 2)")
       ->transform(whole_number_or_auto(2, 8));
   command.add_option("--filter", settings.filter,
-                     "Where to start (default casteljau); an unknown name lists the known ones");
+                     "Where to start (default coast where it has the shape, else casteljau; stages curve and filter: "
+                     "casteljau); an unknown name lists the known ones");
   auto* iterations = command.add_option("--iterations", settings.iterations, "At most so many a round (default 40)")
                          ->transform(whole_number(1, 1000));
   auto* rounds =

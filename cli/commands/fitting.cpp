@@ -70,6 +70,7 @@ auto naming(const std::string& curve, const Work& work) {
   } catch (const ifsm::Error& error) {
     refuse_shape(error);
     refuse_bound(error);
+    refuse_budget(error);
     if (curve.empty()) throw;
     throw Failure(error.status == IFSM_ERROR_RANGE ? Exit::Usage : Exit::Computing, curve + ": " + error.what());
   }

@@ -204,6 +204,7 @@ Page drawn(const PlotArguments& arguments, const Subject& subject, Session& sess
     page.numbers.push_back({{"panel", name}, {"numbers", std::move(shown.numbers)}});
     job.confirm();
   }
+  if (subject.model) progress.update(1, "done");
   return page;
 }
 

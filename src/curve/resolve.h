@@ -6,11 +6,10 @@
 
 namespace ifsm::core {
 
-// Between samples a curve is taken to be straight, and there it is a guess: a place counts a tenth of its distance, so
-// a hundredth of its square. Without it, sketches of nearly as many details as samples leave those places to
-// themselves: 2500 details of Iceland's 3059 samples went 40 000 km out to sea, 141 m from the samples; so they stay
-// within 3 km, and where details are few nothing changes.
-inline constexpr double between_samples = 0.1;
+// Between samples a curve is taken to be straight, and there it is a guess: a place counts half of its distance, so a
+// quarter of its square. Without it, sketches of many details leave those places to themselves: 2500 details of
+// Iceland's 3059 samples went 40 000 km out to sea, 141 m from the samples (docs/fitting.md).
+inline constexpr double between_samples = 0.5;
 
 // What counts of the distance at each place of the finest line: 1 at samples, between_samples between them, 0 where a
 // joined ring's last place repeats its first.

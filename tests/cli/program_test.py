@@ -463,9 +463,13 @@ class GeoJson(Program):
         self.assertIn("coordinates[2]: this hole and another", told(square(0, 9), square(2, 3), square(1, 8)))
         many = told(square(0, 9), *[square(10, 12 + k) for k in range(8)])
         self.assertIn("10 more faults of rings like these", many)
-        self.assertIn("coordinates[1]: this hole sticks out of its polygon;", told(square(0, 9), square(8, 12)))
+        self.assertIn("coordinates[1]: this hole does not lie within its polygon, or only in part;", told(square(0, 9), square(8, 12)))
         notch = [[0, 0], [9, 0], [9, 9], [5, 9], [5, 4], [4, 4], [4, 9], [0, 9], [0, 0]]
-        self.assertIn("coordinates[1]: this hole sticks out", told(notch, square(3, 6)))
+        self.assertIn("coordinates[1]: this hole does not lie within", told(notch, square(3, 6)))
+        self.assertIn("coordinates[1]: this hole does not lie within", told(square(0, 9), square(0, 9)))
+        touching = [[0, 5], [5, 0], [10, 5], [5, 10], [0, 5]], [[0, 5], [5, 0], [10, 5], [0, 5]], [[0, 0], [10, 10], [5, 10], [0, 0]]
+        for hole in touching:  # at points, or along an edge
+            self.assertEqual(told(square(0, 10), hole), "")
         bar = lambda x, y: [[-x, -y], [x, -y], [x, y], [-x, y], [-x, -y]]
         self.assertIn("coordinates[2]: this hole and another", told(square(-9, 9), bar(5, 1), bar(1, 5)))
 

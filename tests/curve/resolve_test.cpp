@@ -9,10 +9,10 @@ using namespace ifsm::core::testing;
 
 namespace {
 
-// What counts of the distance at a place: a tenth between samples.
+// What counts of the distance at a place: half of it between samples.
 Eigen::VectorXd counted(const Model& model) {
   const Placement& placement = model.placement();
-  Eigen::VectorXd counted = Eigen::VectorXd::Constant(placement.places(), 0.1);
+  Eigen::VectorXd counted = Eigen::VectorXd::Constant(placement.places(), 0.5);
   for (Index k = 0; k < placement.samples(); ++k) counted(placement.place(k)) = 1;
   return counted;
 }
@@ -146,7 +146,7 @@ TEST(Resolve, LetsNoPlaceFlyOffBetweenTheSamples) {
       const Points straight = model->placement().fill(to_center(given, model->parts().center));
       const double farthest =
           (there.matrix().topRows(straight.count()) - straight.matrix()).rowwise().norm().maxCoeff();
-      EXPECT_LE(farthest, 10 * std::sqrt(most) * (1 + 1e-9) + 1e-11 * diagonal(given))
+      EXPECT_LE(farthest, 2 * std::sqrt(most) * (1 + 1e-9) + 1e-11 * diagonal(given))
           << name(*model, std::ranges::count(kept, char{1}));
     }
   }

@@ -38,6 +38,19 @@ TEST(KeepWithin, KeepsItsBoundByEveryDistanceAndWayOfSolving) {
   }
 }
 
+// What is kept as it was found is not nearest: a bound so loose that no details are needed is no reason to be far off.
+TEST(KeepWithin, SolvesWhatItFoundByCheaperWays) {
+  const ModelPtr model = model_of(walk(257, 2, 7));
+  for (const Distance by : all_distances)
+    for (const Resolve how : {Resolve::values, Resolve::choice}) {
+      const ModelPtr sketch = within(*model, model->parts().diagonal, how, by);
+      ASSERT_EQ(sketch->details_kept(), 0);
+      EXPECT_EQ(distance(*sketch, *model, by),
+                std::min(distance(*resolved(*model, most_significant(*model, 0), how, by, Watch()), *model, by),
+                         distance(*keep(*model, most_significant(*model, 0)), *model, by)));
+    }
+}
+
 TEST(KeepWithin, NeedsTheLastOfItsDetails) {
   const ModelPtr model = model_of(walk(129, 2, 2));
   for (const Distance by : all_distances)
