@@ -178,7 +178,9 @@ void add_train(CLI::App& program, Session& session) {
   command->add_option("--rounds", a.rounds, "At most so many (default 12)")->transform(whole_number(1, 1000));
   command->add_option("--iterations", a.iterations, "At most so many a round (default 10)")
       ->transform(whole_number(1, 1000));
-  command->add_option("--condition", a.condition, "Condition number of R, at most (default 30), or twice the start's where that is more")
+  command
+      ->add_option("--condition", a.condition,
+                   "Condition number of R, at most (default 30), or twice the start's where that is more")
       ->check(number_above_zero());
   command->add_option("--threads", a.threads, "Threads to use (default: one a core); results do not depend on it")
       ->transform(whole_number(1, 1024));

@@ -145,13 +145,6 @@ ModelPtr rebuilt(const Model& model, int level, const Points& told) {
 
 double largest(const Points& points) { return points.matrix().cwiseAbs().maxCoeff(); }
 
-// Does the matrix take one polygon to the other, up to a translation and rounding? A part that moved as a whole then
-// keeps its parent's turn, which is better known than the turn of a small polygon.
-bool maps_onto(const SmallMatrix& matrix, const PolygonView& from, const PolygonView& to, double rounding) {
-  const auto centred = [](const PolygonView& p) { return Eigen::MatrixXd(p.rowwise() - p.colwise().mean()); };
-  return (centred(from) * matrix.transpose() - centred(to)).cwiseAbs().maxCoeff() <= rounding;
-}
-
 // Walks down the old and the new model together, every node's details turned and scaled as its own polygon is. (Carried
 // from frame to frame they would keep what they are told as, but frames are handed down from node to node: where a
 // polygon is little like what its parent predicts, a small move of the root turns them far.)
@@ -215,6 +208,12 @@ Points details(const Model& model, int level, Frame frame) {
   FrameWalk walk(model.filter(), model.parts().polygon, identity(model.dimension()));
   for (int l = 0; l < level; ++l) walk.descend(model.details(l));
   return told_in_nodes(walk, model.details(level), model.shape().details_per_node());
+}
+
+Points in_frames(const Model& model, int level, const Points& told) {
+  FrameWalk walk(model.filter(), model.parts().polygon, identity(model.dimension()));
+  for (int l = 0; l < level; ++l) walk.descend(model.details(l));
+  return told_absolutely(walk, told, model.shape().details_per_node());
 }
 
 ModelPtr with_control_points(const Model& model, const Points& polygon, Frame frame) {

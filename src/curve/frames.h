@@ -15,6 +15,9 @@ enum class Frame : std::int32_t { absolute = 0, node = 1 };
 // Detail vectors of a level, told in a frame.
 Points details(const Model& model, int level, Frame frame);
 
+// And back: detail vectors of a level, told in the frames of its nodes, as they are.
+Points in_frames(const Model& model, int level, const Points& told);
+
 // Absolute: details stay. Node: they turn and scale with their polygons: each node's by turn(P_θ → P'_θ). `polygon` in
 // the samples' coordinates.
 ModelPtr with_control_points(const Model& model, const Points& polygon, Frame frame);

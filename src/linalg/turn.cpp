@@ -68,6 +68,29 @@ Small complete(const Small& u, const Small& v, Eigen::Index rank) {
   return whole;
 }
 
+// P'^T pinv(P^T) over centred points, V_r V_r^T being the projector onto what P spans.
+Small linear(const PolygonView& from, const PolygonView& to, const Small& similarity) {
+  const Centred before(from), after(to);
+  if (before.is_point()) return similarity;
+  const auto d = from.cols();
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, Eigen::Dynamic, 4> p(from.rows(), d);
+  auto target = p;
+  target.setZero();
+  for (Eigen::Index j = 0; j < from.rows(); ++j) {
+    p.row(j) = before.point(j);
+    if (!after.is_point()) target.row(j) = after.point(j) * (after.unit() / before.unit());
+  }
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(p, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const double rounding = static_cast<double>(from.rows()) * (before.noise() + epsilon);
+  Small result = similarity;
+  for (Eigen::Index r = 0; r < svd.singularValues().size() && svd.singularValues()(r) > rounding; ++r) {
+    const Eigen::VectorXd v = svd.matrixV().col(r);
+    const Eigen::VectorXd image = target.transpose() * svd.matrixU().col(r) / svd.singularValues()(r);
+    result += (image - similarity * v) * v.transpose();
+  }
+  return result;
+}
+
 }  // namespace
 
 double polygon_size(const PolygonView& polygon) {
@@ -107,6 +130,17 @@ SmallMatrix turn(const PolygonView& from, const PolygonView& to) {
   const double before = polygon_size(from), after = polygon_size(to);
   const double scale = before > 0 && after > 0 ? after / before : 1.0;
   return scale * least_rotation(from, to);
+}
+
+SmallMatrix turn(const PolygonView& from, const PolygonView& to, Turning how) {
+  if (how == Turning::rotation) return least_rotation(from, to);
+  const Small similarity = turn(from, to);
+  return how == Turning::linear && from != to ? linear(from, to, similarity) : similarity;
+}
+
+bool maps_onto(const SmallMatrix& matrix, const PolygonView& from, const PolygonView& to, double rounding) {
+  const auto centred = [](const PolygonView& p) { return Eigen::MatrixXd(p.rowwise() - p.colwise().mean()); };
+  return (centred(from) * matrix.transpose() - centred(to)).cwiseAbs().maxCoeff() <= rounding;
 }
 
 }  // namespace ifsm::core

@@ -1,0 +1,298 @@
+#include "deform/deformer.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "deform/falloff.h"
+#include "deform/handles.h"
+
+namespace ifsm::core {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+// F^-1 v, where the curve has not been drawn together so far that F has none.
+Vector untold(const SmallMatrix& frame, const Vector& seen, Index handle) {
+  if (frame == SmallMatrix::Identity(frame.rows(), frame.cols())) return seen;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(frame, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const auto& values = svd.singularValues();
+  if (values(values.size() - 1) > 16 * epsilon * values(0)) return svd.solve(seen);
+  throw Error(Status::numerical, "handles",
+              "Above handle " + std::to_string(handle) +
+                  " the curve is drawn together into a point or flat; no move at this level can be told there. Draw it "
+                  "apart first, or move a coarser level.")
+      .at(handle);
+}
+
+SmallMatrix restyled(const Restyle& edit, double weight, Index dimension) {
+  SmallMatrix map = (1 + weight * (edit.scale - 1)) * SmallMatrix::Identity(dimension, dimension);
+  if (edit.mirror >= 0) map.row(edit.mirror) *= 1 - 2 * weight;
+  if (edit.angle != 0) {
+    SmallMatrix turned = SmallMatrix::Identity(dimension, dimension);
+    const double c = std::cos(weight * edit.angle), s = std::sin(weight * edit.angle);
+    turned.topLeftCorner(2, 2) << c, -s, s, c;
+    map = (turned * map).eval();
+  }
+  return map;
+}
+
+}  // namespace
+
+double Levels::weight(int level) const {
+  const int away = std::max({0, first - level, level - last});
+  if (away == 0) return 1;
+  if (away > fade) return 0;
+  const double t = static_cast<double>(away) / (fade + 1);
+  return (1 - t) * (1 - t) * (1 + 2 * t);
+}
+
+Deformer::Deformer(ModelPtr model, Manner manner) : model_(std::move(model)), manner_(manner) {
+  State start{{model_->parts().polygon, std::vector<Moves>(static_cast<std::size_t>(model_->levels()) + 1)},
+              own_look(*model_),
+              std::make_shared<Base>(model_),
+              nullptr,
+              {}};
+  history_.push_back(std::make_shared<const State>(std::move(start)));
+}
+
+void Deformer::step_to(State next) {
+  auto made = std::make_shared<const State>(std::move(next));
+  history_.reserve(static_cast<std::size_t>(now_) + 2);
+  history_.resize(static_cast<std::size_t>(now_) + 1);
+  history_.push_back(std::move(made));
+  ++now_;
+  touched_ = state().touched;
+}
+
+void Deformer::apply(const Edit& edit) {
+  State next = state();
+  next.touched = {};
+  std::visit([&](const auto& one) { make(next, one); }, edit);
+  next.log = std::make_shared<const Logged>(Logged{edit, state().log});
+  step_to(std::move(next));
+}
+
+void Deformer::undo() {
+  if (now_ == 0) throw Error(Status::range, "deformer", "There is no edit to undo.");
+  touched_ = state().touched;
+  --now_;
+}
+
+void Deformer::redo() {
+  if (redoable() == 0) throw Error(Status::range, "deformer", "There is no undone edit to make again.");
+  ++now_;
+  touched_ = state().touched;
+}
+
+void Deformer::keep_as(const std::string& name) { named_[name] = history_[static_cast<std::size_t>(now_)]; }
+
+void Deformer::go_to(const std::string& name) {
+  const auto found = named_.find(name);
+  if (found == named_.end())
+    throw Error(Status::range, "name", "No state is kept as \"" + name + "\"; keep one by that name first.");
+  State next = *found->second;
+  next.touched = {};
+  step_to(std::move(next));
+}
+
+std::vector<Edit> Deformer::log() const {
+  std::vector<Edit> edits;
+  for (auto entry = state().log; entry; entry = entry->before) edits.push_back(entry->edit);
+  std::ranges::reverse(edits);
+  return edits;
+}
+
+int Deformer::checked_level(int level, int most) const { return static_cast<int>(in_range(level, 0, most, "level")); }
+
+Index Deformer::handle_count(int level) const { return model_->shape().places(level, model_->closed()); }
+
+void Deformer::check_handles(int level, const std::vector<Index>& handles) const {
+  const Index count = handle_count(level);
+  std::vector<Index> sorted = handles;
+  std::ranges::sort(sorted);
+  for (std::size_t i = 0; i < handles.size(); ++i)
+    if (handles[i] < 0 || handles[i] >= count)
+      throw Error(Status::range, "handles",
+                  "handles[" + std::to_string(i) + "] is " + std::to_string(handles[i]) + "; level " +
+                      std::to_string(level) + " has handles 0 to " + std::to_string(count - 1) + ".")
+          .at(static_cast<Index>(i))
+          .with(static_cast<double>(handles[i]));
+  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
+    throw Error(Status::range, "handles", "Handle " + std::to_string(*twice) + " is named twice; move each once.")
+        .with(static_cast<double>(*twice));
+}
+
+Deformer::Touched Deformer::nodes_of(int level, const std::vector<Index>& handles) const {
+  if (handles.empty() || level == 0) return {};
+  const Handles all(model_->shape(), model_->closed(), level);
+  Touched touched{level, model_->shape().nodes(level) - 1, 0};
+  for (const Index handle : handles)
+    for (const Seat& seat : all.seats(handle)) {
+      touched.first = std::min(touched.first, seat.node);
+      touched.last = std::max(touched.last, seat.node);
+    }
+  return touched;
+}
+
+// A place that is given back as it was read is no move, which adding and subtracting the centre need not give.
+Vector Deformer::way_to(const Vector& place, const Points& now) const {
+  const auto& center = model_->parts().center;
+  if (from_center(now, center).matrix().row(0).transpose() == place) return Vector::Zero(place.size());
+  return place - Eigen::Map<const Eigen::VectorXd>(center.data(), place.size()) - now.matrix().row(0).transpose();
+}
+
+void Deformer::make(State& next, const Move& edit) const {
+  checked_level(edit.level, model_->levels());
+  check_handles(edit.level, edit.handles);
+  const auto level = static_cast<std::size_t>(edit.level);
+  if (edit.vectors.count() != static_cast<Index>(edit.handles.size()) ||
+      (edit.vectors.count() > 0 && edit.vectors.dimension() != model_->dimension()))
+    throw Error(Status::shape, "vectors",
+                "vectors must be " + std::to_string(edit.handles.size()) + " of dimension " +
+                    std::to_string(model_->dimension()) + ", one a handle.")
+        .needs(static_cast<Index>(edit.handles.size()) * model_->dimension());
+  for (Index axis = 0; axis < edit.vectors.dimension(); ++axis)
+    require_finite(edit.vectors.plane(axis).data(), edit.vectors.count(), "vectors");
+  if (edit.falloff != Falloff::none && !(edit.radius > 0 && std::isfinite(edit.radius)))
+    throw Error(Status::range, "radius",
+                "radius is " + text_of(edit.radius) + "; a falloff reaches some way: give more than 0.")
+        .with(edit.radius);
+  for (std::size_t i = 0; i < edit.handles.size(); ++i)
+    if (state().pose.moves[level].pins.contains(edit.handles[i]))
+      throw Error(Status::range, "handles",
+                  "handles[" + std::to_string(i) + "], " + std::to_string(edit.handles[i]) +
+                      ", is pinned; let it go before you move it.")
+          .at(static_cast<Index>(i))
+          .with(static_cast<double>(edit.handles[i]));
+  if (edit.handles.empty()) return;
+
+  const Posed now = posed();
+  std::map<Index, Vector> moved;
+  for (std::size_t i = 0; i < edit.handles.size(); ++i) {
+    const Index handle = edit.handles[i];
+    const Vector told = edit.vectors.matrix().row(static_cast<Index>(i)).transpose();
+    moved[handle] = edit.places ? way_to(told, now.places(edit.level, handle, 1)) : told;
+  }
+  if (edit.falloff != Falloff::none) {
+    moved = spread_by_falloff(moved, now.places(edit.level, 0, handle_count(edit.level)), model_->closed(),
+                              edit.falloff, edit.ruler, edit.radius);
+    for (const auto& [handle, pin] : state().pose.moves[level].pins) moved.erase(handle);
+  }
+  std::vector<Index> all;
+  for (const auto& [handle, by] : moved) {
+    all.push_back(handle);
+    if (edit.level == 0) {
+      for (const Seat& seat : Handles(model_->shape(), model_->closed(), 0).seats(handle))
+        next.pose.polygon.matrix().row(seat.point) += by.transpose();
+      continue;
+    }
+    auto& moves = edit.reach == Reach::curve ? next.pose.moves[level].field : next.pose.moves[level].own;
+    const SmallMatrix frame = edit.reach == Reach::curve ? now.whole() : now.frame(edit.level, handle);
+    const auto [at, fresh] = moves.try_emplace(handle, Vector::Zero(by.size()));
+    at->second += untold(frame, by, handle);
+  }
+  if (edit.reach == Reach::nodes) next.touched = nodes_of(edit.level, all);
+}
+
+void Deformer::make(State& next, const Pin& edit) const {
+  checked_level(edit.level, model_->levels());
+  check_handles(edit.level, edit.handles);
+  auto& pins = next.pose.moves[static_cast<std::size_t>(edit.level)].pins;
+  const Posed now = posed();
+  for (const Index handle : edit.handles)
+    if (edit.hold)
+      pins[handle] = now.places(edit.level, handle, 1).matrix().row(0).transpose();
+    else
+      pins.erase(handle);
+  next.touched = nodes_of(edit.level, edit.handles);
+}
+
+void Deformer::check_levels(const Levels& levels) const {
+  if (model_->levels() == 0)
+    throw Error(Status::range, "first", "The model has no levels, hence no details to look otherwise.");
+  in_range(levels.first, 0, model_->levels() - 1, "first");
+  in_range(levels.last, levels.first, model_->levels() - 1, "last");
+  in_range(levels.fade, 0, model_->levels(), "fade");
+}
+
+void Deformer::make(State& next, const Restyle& edit) const {
+  check_levels(edit.levels);
+  require_finite(&edit.scale, 1, "scale");
+  require_finite(&edit.angle, 1, "angle");
+  in_range(edit.mirror, -1, model_->dimension() - 1, "mirror");
+  if (edit.angle != 0 && model_->dimension() == 1)
+    throw Error(Status::range, "angle", "The curve has one dimension: there is nothing to turn in.").with(edit.angle);
+  for (int level = 0; level < model_->levels(); ++level)
+    if (const double weight = edit.levels.weight(level); weight > 0) {
+      SmallMatrix& map = next.look[static_cast<std::size_t>(level)].map;
+      map = (restyled(edit, weight, model_->dimension()) * map).eval();
+    }
+  next.base = std::make_shared<Base>(dressed(*model_, next.look));
+}
+
+void Deformer::make(State& next, const Texture& edit) const {
+  check_levels(edit.levels);
+  require_finite(&edit.roughness, 1, "roughness");
+  if (!(edit.size >= 0 && std::isfinite(edit.size)))
+    throw Error(Status::range, "size", "size is " + text_of(edit.size) + "; give a length, or 0 for the curve's own.")
+        .with(edit.size);
+  if (edit.from) {
+    if (!(edit.from->shape() == model_->shape()) || edit.from->dimension() != model_->dimension())
+      throw Error(Status::shape, "from",
+                  "from has another topology, number of control points or maps, or another dimension; texture can be "
+                  "borrowed from models of the same.");
+    if (edit.from->levels() <= edit.levels.last)
+      throw Error(Status::range, "last",
+                  "last is " + std::to_string(edit.levels.last) + "; from has levels 0 to " +
+                      std::to_string(edit.from->levels() - 1) + ".")
+          .with(edit.levels.last);
+  }
+  const double size = edit.size > 0 ? edit.size : texture_size(model_->details(edit.levels.first));
+  for (int level = 0; level < model_->levels(); ++level) {
+    const double weight = edit.levels.weight(level);
+    if (!(weight > 0) || (edit.from && edit.from->levels() <= level)) continue;
+    const double shrunk =
+        size * std::pow(static_cast<double>(model_->shape().maps()), -edit.roughness * (level - edit.levels.first));
+    const PointsPtr fresh =
+        edit.from ? borrowed_texture(*model_, level, *edit.from) : random_texture(*model_, level, shrunk, edit.seed);
+    auto& look = next.look[static_cast<std::size_t>(level)];
+    if (weight == 1) {
+      look.details = fresh;
+      continue;
+    }
+    auto blend = std::make_shared<Points>(look.details ? *look.details : model_->details(level));
+    blend->matrix() += weight * (fresh->matrix() - blend->matrix());
+    look.details = std::move(blend);
+  }
+  next.base = std::make_shared<Base>(dressed(*model_, next.look));
+}
+
+Index Deformer::count(int level) const { return handle_count(checked_level(level, model_->levels())); }
+
+Points Deformer::places(int level, Index first, Index count) const {
+  const Index all = this->count(level);
+  in_range(first, 0, all, "first");
+  in_range(count, 0, all - first, "count");
+  if (count == 0) return {model_->dimension(), 0};
+  return from_center(posed().places(level, first, count), model_->parts().center);
+}
+
+Points Deformer::samples() const {
+  return model_->placement().pick(places(model_->levels(), 0, count(model_->levels())));
+}
+
+Deformer::Window Deformer::changed(int level) const {
+  const Index all = count(level);
+  if (touched_.level == 0) return {0, all};
+  const Index above = touched_.level > level ? model_->shape().nodes(touched_.level - level) : 1;
+  const Index below = touched_.level < level ? model_->shape().nodes(level - touched_.level) : 1;
+  const auto run = Handles(model_->shape(), model_->closed(), level)
+                       .held_by(touched_.first * below / above, touched_.last / above * below + below - 1);
+  return run.first + run.count > all ? Window{0, all} : Window{run.first, run.count};
+}
+
+ModelPtr Deformer::snapshot() const { return posed().snapshot(); }
+
+}  // namespace ifsm::core

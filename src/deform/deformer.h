@@ -1,0 +1,98 @@
+// A model being edited: a state over an immutable model, with a history.
+//
+// A state is told against the model, never against the edit before, so that order does not matter where edits do not
+// meet, and nothing is lost by editing: undo, redo and named states give the same bits again.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "deform/edit.h"
+#include "deform/look.h"
+#include "deform/pose.h"
+
+namespace ifsm::core {
+
+class Deformer {
+ public:
+  explicit Deformer(ModelPtr model, Manner manner = {});
+
+  const Model& model() const { return *model_; }
+  const Manner& manner() const { return manner_; }
+
+  // Makes an edit, and forgets what was undone. An edit that is refused leaves everything as it was. Errors name the
+  // argument: "level", "handles", "vectors", "radius", "first", "last", …
+  void apply(const Edit& edit);
+
+  // A step back or forth in the history; range errors where there is none.
+  void undo();
+  void redo();
+  Index undoable() const { return now_; }
+  Index redoable() const { return static_cast<Index>(history_.size()) - 1 - now_; }
+
+  // A state by a name, kept for later; going back to it is a step that can be undone.
+  void keep_as(const std::string& name);
+  void go_to(const std::string& name);
+  bool knows(const std::string& name) const { return named_.contains(name); }
+
+  // The edits that made the present state, the first one first.
+  std::vector<Edit> log() const;
+
+  // Places of a level, in the samples' coordinates: those that the last step may have changed are changed(level).
+  Points places(int level, Index first, Index count) const;
+  Index count(int level) const;
+  // The curve at the samples.
+  Points samples() const;
+  struct Window {
+    Index first, count;
+  };
+  Window changed(int level) const;
+
+  // The state as a model of its own.
+  ModelPtr snapshot() const;
+
+ private:
+  // Of the nodes of a level: what a step touched. Level 0: all.
+  struct Touched {
+    int level = 0;
+    Index first = 0, last = 0;
+  };
+  struct Logged {
+    Edit edit;
+    std::shared_ptr<const Logged> before;
+  };
+  struct State {
+    Pose pose;
+    Look look;
+    BasePtr base;
+    std::shared_ptr<const Logged> log;
+    Touched touched;  // by the step that led here
+  };
+  using StatePtr = std::shared_ptr<const State>;
+
+  const State& state() const { return *history_[static_cast<std::size_t>(now_)]; }
+  Posed posed() const { return {*state().base, state().pose, manner_}; }
+  void step_to(State next);
+
+  void make(State& next, const Move& edit) const;
+  void make(State& next, const Pin& edit) const;
+  void make(State& next, const Restyle& edit) const;
+  void make(State& next, const Texture& edit) const;
+  int checked_level(int level, int most) const;
+  void check_levels(const Levels& levels) const;
+  Index handle_count(int level) const;
+  void check_handles(int level, const std::vector<Index>& handles) const;
+  Vector way_to(const Vector& place, const Points& now) const;
+  Touched nodes_of(int level, const std::vector<Index>& handles) const;
+
+  ModelPtr model_;
+  Manner manner_;
+  std::vector<StatePtr> history_;
+  Index now_ = 0;
+  Touched touched_;
+  std::map<std::string, StatePtr> named_;
+};
+
+}  // namespace ifsm::core

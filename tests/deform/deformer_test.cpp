@@ -1,0 +1,412 @@
+#include "deform/deformer.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "../curve/support.h"
+#include "deform/handles.h"
+
+using namespace ifsm::core;
+using namespace ifsm::core::testing;
+
+namespace {
+
+struct Subject {
+  FilterPtr filter;
+  bool closed;
+  Index dimension;
+};
+
+std::vector<Subject> subjects(Random& random) {
+  std::vector<Subject> all;
+  for (const bool closed : {false, true})
+    for (const auto& [topology, n, maps, stride] : {std::tuple{Topology::joined, 2, 2, 0},
+                                                    {Topology::joined, 5, 2, 0},
+                                                    {Topology::joined, 3, 3, 0},
+                                                    {Topology::square, 4, 2, 2}})
+      for (const Index dimension : {1, 2, 3})
+        all.push_back({random_filter(Shape(topology, n, maps, stride), random, 0.05), closed, dimension});
+  return all;
+}
+
+ModelPtr rough(const Subject& s, Random& random, Index samples = 90) {
+  return analyze(s.filter, random_curve(random, samples, s.dimension, Kind::walk), s.closed);
+}
+
+std::string name(const Model& m) {
+  std::ostringstream out;
+  out << m.shape() << (m.closed() ? " closed" : " open") << " d=" << m.dimension();
+  return out.str();
+}
+
+Points vectors(Random& random, Index count, Index dimension) {
+  return points_from(Matrix::NullaryExpr(count, dimension, [&] { return normal(random); }));
+}
+
+Move move(int level, std::vector<Index> handles, Points by, Reach reach = Reach::nodes) {
+  Move edit;
+  edit.level = level;
+  edit.handles = std::move(handles);
+  edit.vectors = std::move(by);
+  edit.reach = reach;
+  return edit;
+}
+
+Points all(const Deformer& deformer) {
+  const int finest = deformer.model().levels();
+  return deformer.places(finest, 0, deformer.count(finest));
+}
+
+// Any edit, of any kind.
+Edit any_edit(const Deformer& deformer, Random& random) {
+  const Model& model = deformer.model();
+  const auto levels = [&] {
+    const int first = static_cast<int>(uniform(random, 0, model.levels() - 1));
+    return Levels{first, static_cast<int>(uniform(random, first, model.levels() - 1)),
+                  static_cast<int>(uniform(random, 0, 2))};
+  };
+  switch (uniform(random, 0, 4)) {
+    case 0: return Restyle{levels(), 1 + 0.3 * normal(random), model.dimension() > 1 ? 0.2 : 0.0, -1};
+    case 1: return Texture{levels(), nullptr, 0.7, 0, 5};
+    case 2: return move(0, {uniform(random, 0, deformer.count(0) - 1)}, vectors(random, 1, model.dimension()));
+    default: {
+      const int level = static_cast<int>(uniform(random, 1, model.levels()));
+      Move edit = move(level, {uniform(random, 0, deformer.count(level) - 1)}, vectors(random, 1, model.dimension()),
+                       uniform(random, 0, 1) ? Reach::nodes : Reach::curve);
+      if (uniform(random, 0, 1)) {
+        edit.falloff = Falloff::smooth;
+        edit.radius = 2.5;
+      }
+      return edit;
+    }
+  }
+}
+
+TEST(Deformer, IsTheModelToTheBitBeforeAnyEdit) {
+  Random random(1);
+  for (const Subject& s : subjects(random)) {
+    const ModelPtr model = rough(s, random);
+    Deformer deformer(model);
+    EXPECT_EQ(deformer.samples(), samples(*model)) << name(*model);
+    deformer.apply(move(1, {1}, Points(s.dimension, 1)));  // by nothing
+    deformer.apply(move(0, {}, Points(s.dimension, 0)));
+    deformer.apply(Restyle{{0, model->levels() - 1, 0}, 1, 0, -1});
+    Move stay = move(2, {0, 1, 2}, Points(s.dimension, 3));
+    stay.vectors = deformer.places(2, 0, 3);
+    stay.places = true;
+    deformer.apply(stay);
+    EXPECT_EQ(deformer.samples(), samples(*model)) << name(*model);
+  }
+}
+
+TEST(Deformer, UndoesRedoesAndReplaysToTheBit) {
+  Random random(2);
+  for (const Subject& s : subjects(random)) {
+    const ModelPtr model = rough(s, random);
+    Deformer deformer(model);
+    std::vector<Points> met{all(deformer)};
+    for (int step = 0; step < 8; ++step) {
+      deformer.apply(any_edit(deformer, random));
+      met.push_back(all(deformer));
+    }
+    deformer.keep_as("end");
+    for (std::size_t step = met.size() - 1; step-- > 0;) {
+      deformer.undo();
+      ASSERT_EQ(all(deformer), met[step]) << name(*model);
+    }
+    EXPECT_EQ(deformer.undoable(), 0);
+    for (std::size_t step = 1; step < met.size(); ++step) {
+      deformer.redo();
+      ASSERT_EQ(all(deformer), met[step]) << name(*model);
+    }
+    EXPECT_EQ(deformer.redoable(), 0);
+    Deformer again(model);
+    for (const Edit& edit : deformer.log()) again.apply(edit);
+    EXPECT_EQ(all(again), met.back());
+    while (deformer.undoable() > 0) deformer.undo();
+    deformer.go_to("end");
+    EXPECT_EQ(all(deformer), met.back());
+    EXPECT_EQ(deformer.log().size(), met.size() - 1);
+    deformer.undo();
+    EXPECT_EQ(all(deformer), met.front());
+  }
+}
+
+TEST(Deformer, ChangesNothingOutsideTheWindowThatItTells) {
+  Random random(3);
+  int narrow = 0;
+  for (const Subject& s : subjects(random)) {
+    const ModelPtr model = rough(s, random, 300);
+    Deformer deformer(model);
+    for (int step = 0; step < 12; ++step) {
+      std::vector<Points> before;
+      for (int level = 0; level <= model->levels(); ++level)
+        before.push_back(deformer.places(level, 0, deformer.count(level)));
+      const bool back = step % 4 == 3;
+      if (back)
+        deformer.undo();
+      else
+        deformer.apply(any_edit(deformer, random));
+      for (int level = 0; level <= model->levels(); ++level) {
+        const auto window = deformer.changed(level);
+        const Points now = deformer.places(level, 0, deformer.count(level));
+        if (level == model->levels() && window.count < now.count() / 2) ++narrow;
+        for (Index p = 0; p < now.count(); ++p)
+          if (p < window.first || p >= window.first + window.count) {
+            ASSERT_EQ(now.matrix().row(p), before[static_cast<std::size_t>(level)].matrix().row(p))
+                << name(*model) << " level " << level << " place " << p;
+          }
+      }
+    }
+  }
+  EXPECT_GT(narrow, 20);  // or it has told the whole curve every time
+}
+
+TEST(Deformer, MovesOfNodesApartCommute) {
+  Random random(4);
+  for (const Subject& s : subjects(random)) {
+    const ModelPtr model = rough(s, random);
+    const int level = 3;
+    const Shape& shape = model->shape();
+    const Handles handles(shape, s.closed, level);
+    Points bend = vectors(random, 1, s.dimension);
+    const Move a = move(level, {handles.held_by(1, 1).first + (shape.control_points() > 2 ? 1 : 0)},
+                        vectors(random, 1, s.dimension)),
+               b = move(level, {handles.held_by(5, 5).first + (shape.control_points() > 2 ? 1 : 0)},
+                        vectors(random, 1, s.dimension));
+    Deformer one(model), other(model);
+    one.apply(move(0, {0}, bend)), other.apply(move(0, {0}, bend));
+    one.apply(a), one.apply(b);
+    other.apply(b), other.apply(a);
+    EXPECT_EQ(all(one), all(other)) << name(*model);
+  }
+}
+
+TEST(Deformer, TheOrderOfGlobalEditsDoesNotMatterWhereTheyEndAlike) {
+  Random random(5);
+  for (const Subject& s : subjects(random)) {
+    const ModelPtr model = rough(s, random);
+    Deformer one(model), other(model);
+    if (one.count(0) == 1) continue;
+    const Move a = move(0, {0}, vectors(random, 1, s.dimension)), b = move(0, {1}, vectors(random, 1, s.dimension));
+    one.apply(a), one.apply(b);
+    other.apply(b), other.apply(a);
+    EXPECT_EQ(all(one), all(other)) << name(*model);
+  }
+}
+
+TEST(Deformer, ScaledToNothingIsTheTruncatedModel) {
+  Random random(6);
+  for (const Subject& s : subjects(random)) {
+    const ModelPtr model = rough(s, random);
+    for (int level = 0; level < model->levels(); ++level) {
+      Deformer deformer(model);
+      deformer.apply(Restyle{{level, model->levels() - 1, 0}, 0, 0, -1});
+      EXPECT_EQ(deformer.samples(), samples(*keep(*model, first_levels(*model, level)))) << name(*model);
+      deformer.apply(Restyle{{0, model->levels() - 1, 0}, 3, 0, -1});  // what is nothing stays nothing
+      EXPECT_EQ(deformer.snapshot()->details(level).matrix().cwiseAbs().maxCoeff(), 0);
+    }
+  }
+}
+
+TEST(Deformer, StylesAreLinearInTheDetails) {
+  Random random(7);
+  for (const Subject& s : subjects(random)) {
+    if (s.dimension < 2) continue;
+    const ModelPtr model = rough(s, random);
+    Deformer deformer(model);
+    const double angle = 0.4;
+    deformer.apply(Restyle{{1, 2, 0}, 1.5, angle, 1});
+    ModelParts parts = model->parts();
+    SmallMatrix map = SmallMatrix::Identity(s.dimension, s.dimension);
+    map(1, 1) = -1;
+    SmallMatrix turned = SmallMatrix::Identity(s.dimension, s.dimension);
+    turned.topLeftCorner(2, 2) << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    map = (1.5 * turned * map).eval();
+    for (const std::size_t level : {1U, 2U}) {
+      auto details = std::make_shared<Points>(*parts.details[level]);
+      details->matrix() = parts.details[level]->matrix() * map.transpose();
+      parts.details[level] = details;
+    }
+    const Points wanted = samples(*std::make_shared<Model>(parts));
+    EXPECT_LE(distance(deformer.samples(), wanted), 1e-13 * (1 + largest(wanted))) << name(*model);
+  }
+}
+
+TEST(Levels, FadeSmoothlyOnBothSides) {
+  const Levels levels{3, 5, 2};
+  EXPECT_EQ(levels.weight(4), 1);
+  EXPECT_EQ(levels.weight(0), 0);
+  EXPECT_EQ(levels.weight(8), 0);
+  EXPECT_EQ(levels.weight(2), levels.weight(6));
+  EXPECT_DOUBLE_EQ(levels.weight(2), 20.0 / 27);  // 1 - 3 t² + 2 t³ at t = 1/3
+  EXPECT_DOUBLE_EQ(levels.weight(1), 7.0 / 27);
+  EXPECT_EQ((Levels{0, 5, 0}.weight(6)), 0);
+}
+
+TEST(Deformer, FalloffTakesNeighboursAlong) {
+  Random random(8);
+  for (const bool closed : {false, true})
+    for (const Reach reach : {Reach::nodes, Reach::curve}) {
+      const ModelPtr model =
+          analyze(casteljau(Shape(Topology::joined, 5, 2)), random_curve(random, 65, 2, Kind::walk), closed);
+      const int level = 3;
+      Deformer deformer(model);
+      const Points before = deformer.places(level, 0, deformer.count(level));
+      Move edit = move(level, {1}, vectors(random, 1, 2), reach);
+      edit.falloff = Falloff::linear;
+      edit.radius = 4;
+      deformer.apply(edit);
+      const Points now = deformer.places(level, 0, deformer.count(level));
+      const Index count = before.count();
+      for (Index h = 0; h < count; ++h) {
+        const Index away = closed ? std::min(std::abs(h - 1), count - std::abs(h - 1)) : std::abs(h - 1);
+        const double weight = std::max(0.0, 1 - static_cast<double>(away) / 4);
+        const Eigen::RowVectorXd by = now.matrix().row(h) - before.matrix().row(h);
+        EXPECT_LE((by - weight * edit.vectors.matrix().row(0)).norm(), 1e-13 * (1 + largest(before)))
+            << "handle " << h << (closed ? " closed" : "");
+      }
+    }
+}
+
+TEST(Deformer, FalloffByLengthMeasuresAlongTheCurve) {
+  Points stairs(2, 5);
+  stairs.matrix() << 0, 0, 1, 0, 1, 3, 2, 3, 2, 4;  // edges of 1, 3, 1, 1
+  const ModelPtr model = analyze(casteljau(Shape(Topology::joined, 2, 2)), stairs, false);
+  Deformer deformer(model);
+  Points up(2, 1);
+  up.plane(1)[0] = 1;
+  Move edit = move(2, {1}, up);
+  edit.falloff = Falloff::smooth;
+  edit.ruler = Ruler::length;
+  edit.radius = 4;
+  deformer.apply(edit);
+  const Points now = deformer.places(2, 0, 5);
+  const double weights[] = {15.0 * 15 / 256, 1, 7.0 * 7 / 256, 0, 0};  // at 1, 0, 3, 4, 5 of 4
+  for (Index h = 0; h < 5; ++h) EXPECT_NEAR(now.matrix()(h, 1), stairs.matrix()(h, 1) + weights[h], 1e-14) << h;
+}
+
+TEST(Deformer, HoldsPins) {
+  Random random(9);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 5, 2)), false, 2}, random);
+  Deformer deformer(model);
+  const Points place = deformer.places(3, 7, 1);
+  const Points still = all(deformer);
+  deformer.apply(Pin{3, {7}, true});
+  EXPECT_EQ(all(deformer), still);
+  deformer.apply(move(0, {1, 2}, vectors(random, 2, 2)));
+  Move near = move(3, {6}, vectors(random, 1, 2));
+  near.falloff = Falloff::smooth;
+  near.radius = 5;
+  deformer.apply(near);
+  EXPECT_EQ(deformer.places(3, 7, 1), place);
+  const Error refused = refusal([&] { deformer.apply(move(3, {2, 7}, vectors(random, 2, 2))); });
+  EXPECT_EQ(refused.argument(), "handles");
+  EXPECT_EQ(refused.index(), 1);
+  EXPECT_EQ(refused.value(), 7);
+  deformer.apply(Pin{3, {7}, false});
+  EXPECT_NE(deformer.places(3, 7, 1), place);  // where it would have been
+}
+
+TEST(Deformer, BorrowsTexture) {
+  Random random(10);
+  for (const Subject& s : subjects(random)) {
+    const ModelPtr model = rough(s, random);
+    Deformer deformer(model);
+    deformer.apply(Texture{{0, model->levels() - 1, 0}, model, 0, 0, 0});  // its own
+    EXPECT_LE(distance(deformer.samples(), samples(*model)), 1e-12 * (1 + largest(samples(*model)))) << name(*model);
+    // Texture that lies along another curve lies along this one as it did: similar models have the same.
+    if (s.dimension != 2 || deformer.count(0) == 1) continue;  // a point lies no way
+    Points turned = samples(*model);
+    for (Index k = 0; k < turned.count(); ++k) {
+      const Eigen::RowVector2d p = samples(*model).matrix().row(k);
+      turned.matrix().row(k) << 2 * p(1) + 3, -2 * p(0);
+    }
+    Deformer other(model);
+    other.apply(Texture{{2, model->levels() - 1, 0}, analyze(s.filter, turned, s.closed), 0, 0, 0});
+    EXPECT_LE(distance(other.samples(), samples(*model)), 1e-11 * (1 + largest(samples(*model)))) << name(*model);
+  }
+}
+
+TEST(Deformer, MakesTextureOfTheRoughnessAsked) {
+  Random random(11);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 2, 2)), false, 2}, random, 4097);
+  Deformer deformer(model);
+  deformer.apply(Texture{{3, model->levels() - 1, 0}, nullptr, 0.8, 0.25, 42});
+  const ModelPtr made = deformer.snapshot();
+  for (int level = 3; level < model->levels(); ++level) {
+    const double size = texture_size(made->details(level)), wanted = 0.25 * std::pow(2, -0.8 * (level - 3));
+    // The mean square of k pairs of normals: relative deviation 1/sqrt(2 k) of the size, five of them.
+    const double spread = 5 / std::sqrt(2.0 * 2 * static_cast<double>(model->details(level).count()));
+    EXPECT_NEAR(size / wanted, 1, spread) << level;
+  }
+  EXPECT_EQ(made->details(2), model->details(2));
+  Deformer again(model), other(model);
+  again.apply(Texture{{3, model->levels() - 1, 0}, nullptr, 0.8, 0.25, 42});
+  EXPECT_EQ(all(again), all(deformer));
+  other.apply(Texture{{3, model->levels() - 1, 0}, nullptr, 0.8, 0.25, 43});
+  EXPECT_NE(all(other), all(deformer));
+}
+
+TEST(Deformer, RefusesWhatItCannotDoAndStaysAsItWas) {
+  Random random(12);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 5, 2)), false, 2}, random);
+  const ModelPtr line = rough({casteljau(Shape(Topology::joined, 5, 2)), false, 1}, random);
+  Deformer deformer(model);
+  deformer.apply(move(1, {1}, vectors(random, 1, 2)));
+  const Points before = all(deformer);
+  const int levels = model->levels();
+  const Points one = vectors(random, 1, 2);
+  Points nan = one;
+  nan.plane(1)[0] = std::nan("");
+  Move falls = move(1, {1}, one);
+  falls.falloff = Falloff::linear;
+  const std::tuple<Edit, Status, std::string> wrong[] = {
+      {move(-1, {0}, one), Status::range, "level"},
+      {move(levels + 1, {0}, one), Status::range, "level"},
+      {move(1, {-1}, one), Status::range, "handles"},
+      {move(1, {9}, one), Status::range, "handles"},
+      {move(1, {1, 1}, vectors(random, 2, 2)), Status::range, "handles"},
+      {move(1, {1, 2}, one), Status::shape, "vectors"},
+      {move(1, {1}, vectors(random, 1, 3)), Status::shape, "vectors"},
+      {move(1, {1}, nan), Status::not_finite, "vectors"},
+      {falls, Status::range, "radius"},
+      {Pin{levels + 1, {0}, true}, Status::range, "level"},
+      {Pin{1, {99}, true}, Status::range, "handles"},
+      {Restyle{{-1, 0, 0}, 1, 0, -1}, Status::range, "first"},
+      {Restyle{{1, 0, 0}, 1, 0, -1}, Status::range, "last"},
+      {Restyle{{0, levels, 0}, 1, 0, -1}, Status::range, "last"},
+      {Restyle{{0, 1, -1}, 1, 0, -1}, Status::range, "fade"},
+      {Restyle{{0, 1, 0}, std::nan(""), 0, -1}, Status::not_finite, "scale"},
+      {Restyle{{0, 1, 0}, 1, 0, 2}, Status::range, "mirror"},
+      {Texture{{0, 1, 0}, nullptr, 0.5, -1, 0}, Status::range, "size"},
+      {Texture{{0, 1, 0}, line, 0.5, 0, 0}, Status::shape, "from"},
+  };
+  for (const auto& [edit, status, argument] : wrong) {
+    const Error error = refusal([&] { deformer.apply(edit); });
+    EXPECT_EQ(error.status(), status) << error.what();
+    EXPECT_EQ(error.argument(), argument) << error.what();
+    EXPECT_EQ(all(deformer), before);
+    EXPECT_EQ(deformer.undoable(), 1);
+  }
+  EXPECT_EQ(refusal([&] { Deformer(line).apply(Restyle{{0, 1, 0}, 1, 0.1, -1}); }).argument(), "angle");
+  EXPECT_EQ(refusal([&] { deformer.go_to("nowhere"); }).argument(), "name");
+  EXPECT_EQ(refusal([&] { deformer.redo(); }).status(), Status::range);
+  EXPECT_EQ(refusal([&] { Deformer(model).undo(); }).status(), Status::range);
+  EXPECT_EQ(refusal([&] { deformer.places(1, 8, 2); }).argument(), "count");
+}
+
+TEST(Deformer, RefusesMovesBelowAPointAndNotAbove) {
+  Random random(13);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 3, 2)), false, 2}, random);
+  Deformer deformer(model, {Turning::linear, Follow::moved});
+  Move flat = move(0, {0, 1, 2}, Points(2, 3));
+  flat.places = true;
+  for (Index k = 0; k < 3; ++k) flat.vectors.plane(0)[static_cast<std::size_t>(k)] = static_cast<double>(k);
+  deformer.apply(flat);  // on a line: the linear turn is flat
+  EXPECT_EQ(refusal([&] { deformer.apply(move(2, {1}, vectors(random, 1, 2))); }).status(), Status::numerical);
+  deformer.apply(move(0, {1}, vectors(random, 1, 2)));
+  deformer.apply(move(2, {1}, vectors(random, 1, 2)));
+}
+
+}  // namespace
