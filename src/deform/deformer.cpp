@@ -1,5 +1,6 @@
 #include "deform/deformer.h"
 
+#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 
 #include "deform/falloff.h"
 #include "deform/handles.h"
+#include "deform/reach.h"
 
 namespace ifsm::core {
 namespace {
@@ -147,14 +149,7 @@ void Deformer::make(State& next, const Move& edit) const {
   checked_level(edit.level, model_->levels());
   check_handles(edit.level, edit.handles);
   const auto level = static_cast<std::size_t>(edit.level);
-  if (edit.vectors.count() != static_cast<Index>(edit.handles.size()) ||
-      (edit.vectors.count() > 0 && edit.vectors.dimension() != model_->dimension()))
-    throw Error(Status::shape, "vectors",
-                "vectors must be " + std::to_string(edit.handles.size()) + " of dimension " +
-                    std::to_string(model_->dimension()) + ", one a handle.")
-        .needs(static_cast<Index>(edit.handles.size()) * model_->dimension());
-  for (Index axis = 0; axis < edit.vectors.dimension(); ++axis)
-    require_finite(edit.vectors.plane(axis).data(), edit.vectors.count(), "vectors");
+  require_vectors(edit.vectors, static_cast<Index>(edit.handles.size()), "vectors");
   if (edit.falloff != Falloff::none && !(edit.radius > 0 && std::isfinite(edit.radius)))
     throw Error(Status::range, "radius",
                 "radius is " + text_of(edit.radius) + "; a falloff reaches some way: give more than 0.")
@@ -183,17 +178,51 @@ void Deformer::make(State& next, const Move& edit) const {
   std::vector<Index> all;
   for (const auto& [handle, by] : moved) {
     all.push_back(handle);
-    if (edit.level == 0) {
-      for (const Seat& seat : Handles(model_->shape(), model_->closed(), 0).seats(handle))
-        next.pose.polygon.matrix().row(seat.point) += by.transpose();
-      continue;
-    }
-    auto& moves = edit.reach == Reach::curve ? next.pose.moves[level].field : next.pose.moves[level].own;
-    const SmallMatrix frame = edit.reach == Reach::curve ? now.whole() : now.frame(edit.level, handle);
-    const auto [at, fresh] = moves.try_emplace(handle, Vector::Zero(by.size()));
-    at->second += untold(frame, by, handle);
+    displace(next, now, edit.level, handle, by, edit.reach);
   }
   if (edit.reach == Reach::nodes) next.touched = nodes_of(edit.level, all);
+}
+
+// By a vector as it is seen in `now`.
+void Deformer::displace(State& next, const Posed& now, int level, Index handle, const Vector& by, Reach reach) const {
+  if (level == 0) {
+    for (const Seat& seat : Handles(model_->shape(), model_->closed(), 0).seats(handle))
+      next.pose.polygon.matrix().row(seat.point) += by.transpose();
+    return;
+  }
+  Moves& all = next.pose.moves[static_cast<std::size_t>(level)];
+  auto& moves = reach == Reach::curve ? all.field : all.own;
+  const SmallMatrix frame = reach == Reach::curve ? now.whole() : now.frame(level, handle);
+  moves.try_emplace(handle, Vector::Zero(by.size())).first->second += untold(frame, by, handle);
+}
+
+void Deformer::require_vectors(const Points& vectors, Index count, const char* argument) const {
+  if (vectors.count() != count || (count > 0 && vectors.dimension() != model_->dimension()))
+    throw Error(Status::shape, argument,
+                std::string(argument) + " must be " + std::to_string(count) + " of dimension " +
+                    std::to_string(model_->dimension()) + ".")
+        .needs(count * model_->dimension());
+  for (Index axis = 0; axis < vectors.dimension(); ++axis)
+    require_finite(vectors.plane(axis).data(), vectors.count(), argument);
+}
+
+// From the centre.
+Points Deformer::points_at(const Posed& posed, const std::vector<double>& parameters) const {
+  Points all(model_->dimension(), static_cast<Index>(parameters.size()));
+  const Index count = handle_count(model_->levels());
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const double position = model_->placement().position(parameters[k]), first = std::floor(position);
+    const auto place = static_cast<Index>(first);
+    auto point = all.matrix().row(static_cast<Index>(k));
+    point = posed.places(model_->levels(), place, 1).matrix().row(0);
+    if (position > first)
+      point += (position - first) * (posed.places(model_->levels(), (place + 1) % count, 1).matrix().row(0) - point);
+  }
+  return all;
+}
+
+Points Deformer::at(const std::vector<double>& parameters) const {
+  return from_center(points_at(posed(), parameters), model_->parts().center);
 }
 
 void Deformer::make(State& next, const Pin& edit) const {
@@ -207,6 +236,111 @@ void Deformer::make(State& next, const Pin& edit) const {
     else
       pins.erase(handle);
   next.touched = nodes_of(edit.level, edit.handles);
+}
+
+void Deformer::check_drag(const Drag& edit) const {
+  if (!model_->shape().joined())
+    throw Error(Status::shape, "deformer",
+                "The model is square: its places are means of several polygons. Move its handles instead.");
+  checked_level(edit.level, edit.lead == Lead::details ? model_->levels() - 1 : model_->levels());
+  const auto count = static_cast<Index>(edit.parameters.size());
+  require_finite(edit.parameters.data(), count, "parameters");
+  for (Index k = 0; k < count && !model_->closed(); ++k)
+    if (const double t = edit.parameters[static_cast<std::size_t>(k)]; t < 0 || t > 1)
+      throw Error(Status::range, "parameters",
+                  "parameters[" + std::to_string(k) + "] is " + text_of(t) + "; an open curve has parameters 0 to 1.")
+          .at(k)
+          .with(t);
+  require_vectors(edit.places, count, "places");
+}
+
+// Least changes of a level's values that lead points of the curve by given ways.
+class Deformer::Leash {
+ public:
+  Leash(std::vector<Shares> shares, const std::map<Index, Vector>& pins) {
+    for (const Shares& row : shares)
+      for (const auto& [value, share] : row)
+        if (!pins.contains(value)) column_.try_emplace(value, static_cast<Index>(column_.size()));
+    rows_ = Eigen::MatrixXd::Zero(static_cast<Index>(shares.size()), static_cast<Index>(column_.size()));
+    for (std::size_t k = 0; k < shares.size(); ++k)
+      for (const auto& [value, share] : shares[k])
+        if (const auto at = column_.find(value); at != column_.end()) rows_(static_cast<Index>(k), at->second) = share;
+    solver_.setThreshold(1e-10);  // of the largest pivot: nearer to each other, points are led by rounding
+    if (rows_.cols() > 0) solver_.compute(rows_);
+    const Index led = rows_.cols() > 0 ? solver_.rank() : 0;
+    if (led == rows_.rows()) return;
+    throw Error(Status::singular, "parameters",
+                "The " + std::to_string(rows_.rows()) +
+                    " points cannot be led apart by what is free to move at this level: some depend on each other, or "
+                    "hang on pins alone. Name points once, let pins go, or take a finer level.")
+        .with(static_cast<double>(rows_.rows()))
+        .needs(led);
+  }
+
+  std::map<Index, Vector> changes(const Eigen::MatrixXd& ways) const {
+    const Eigen::MatrixXd solved = solver_.solve(ways);
+    std::map<Index, Vector> all;
+    for (const auto& [value, column] : column_) all.emplace(value, solved.row(column).transpose());
+    return all;
+  }
+  std::vector<Index> values() const {
+    std::vector<Index> all;
+    for (const auto& [value, column] : column_) all.push_back(value);
+    return all;
+  }
+
+ private:
+  std::map<Index, Index> column_;
+  Eigen::MatrixXd rows_;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver_;
+};
+
+// Handles' nodes turn, which moves the points once more: Broyden's method, from the linear solution. Whatever it finds
+// is a combination of the same rows, so that nothing changes less and ends so.
+void Deformer::make(State& next, const Drag& edit) const {
+  check_drag(edit);
+  if (edit.parameters.empty()) return;
+  const auto level = static_cast<std::size_t>(edit.level);
+  std::vector<Shares> shares;
+  for (const double t : edit.parameters)
+    shares.push_back(edit.lead == Lead::handles ? handle_shares(*model_, edit.level, t)
+                                                : detail_shares(*model_, edit.level, t));
+  const Leash leash(std::move(shares),
+                    edit.lead == Lead::handles ? state().pose.moves[level].pins : std::map<Index, Vector>());
+  const Posed before = posed();
+  const Eigen::MatrixXd wanted = to_center(edit.places, model_->parts().center).matrix();
+  const double close = 2e-13 * (model_->parts().diagonal + wanted.cwiseAbs().maxCoeff());
+  using Flat = Eigen::VectorXd;
+  const auto led = [&](const Flat& ways) {
+    next.pose = state().pose;
+    for (const auto& [value, by] : leash.changes(Eigen::MatrixXd(ways.reshaped(wanted.rows(), wanted.cols()))))
+      lead(next, before, edit, value, by);
+    const Posed now(*next.base, next.pose, manner_);
+    return Flat((wanted - points_at(now, edit.parameters).matrix()).reshaped());
+  };
+  Flat ways = Flat::Zero(wanted.size()), left = led(ways);
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(wanted.size(), wanted.size());
+  constexpr int most_steps = 200;
+  for (int step = 0; step < most_steps && left.allFinite() && left.cwiseAbs().maxCoeff() > close; ++step) {
+    const Flat way = inverse * left;
+    ways += way;
+    const Flat now = led(ways), gone = inverse * (left - now);
+    const double part = way.dot(gone);
+    if (std::abs(part) > epsilon * way.squaredNorm()) inverse += (way - gone) * (way.transpose() * inverse) / part;
+    left = now;
+  }
+  if (!left.allFinite() || left.cwiseAbs().maxCoeff() > close)
+    throw Error(
+        Status::numerical, "places",
+        "The points could not be led there: the texture turns more than it is led. Lead by details, or less far.");
+  if (edit.lead == Lead::handles) next.touched = nodes_of(edit.level, leash.values());
+}
+
+void Deformer::lead(State& next, const Posed& before, const Drag& edit, Index value, const Vector& by) const {
+  if (edit.lead == Lead::handles) return displace(next, before, edit.level, value, by, Reach::nodes);
+  auto& details = next.pose.moves[static_cast<std::size_t>(edit.level)].details;
+  const SmallMatrix turn = before.turn_at(edit.level, value / model_->shape().details_per_node());
+  details.try_emplace(value, Vector::Zero(by.size())).first->second += untold(turn, by, value);
 }
 
 void Deformer::check_levels(const Levels& levels) const {

@@ -42,6 +42,8 @@ class Deformer {
 
   // Places of a level, in the samples' coordinates: those that the last step may have changed are changed(level).
   Points places(int level, Index first, Index count) const;
+  // Points of the finest polyline. Open: parameters 0 … 1; closed: any, modulo 1.
+  Points at(const std::vector<double>& parameters) const;
   Index count(int level) const;
   // The curve at the samples.
   Points samples() const;
@@ -78,8 +80,15 @@ class Deformer {
 
   void make(State& next, const Move& edit) const;
   void make(State& next, const Pin& edit) const;
+  void make(State& next, const Drag& edit) const;
   void make(State& next, const Restyle& edit) const;
   void make(State& next, const Texture& edit) const;
+  class Leash;
+  void displace(State& next, const Posed& now, int level, Index handle, const Vector& by, Reach reach) const;
+  void check_drag(const Drag& edit) const;
+  void lead(State& next, const Posed& before, const Drag& edit, Index value, const Vector& by) const;
+  void require_vectors(const Points& vectors, Index count, const char* argument) const;
+  Points points_at(const Posed& posed, const std::vector<double>& parameters) const;
   int checked_level(int level, int most) const;
   void check_levels(const Levels& levels) const;
   Index handle_count(int level) const;

@@ -38,6 +38,16 @@ struct Pin {
   bool hold = true;
 };
 
+// Points of the curve, at parameters, led to places by the least change (sum of squares) of a level: of its handles,
+// the nodes that hold them turning as ever, or of its details, which turn nothing. Pinned handles stay. Joined models.
+enum class Lead : std::int32_t { handles = 0, details = 1 };
+struct Drag {
+  int level = 0;
+  std::vector<double> parameters;
+  Points places;  // one a parameter, in the samples' coordinates; a point that is to stay: where it is
+  Lead lead = Lead::handles;
+};
+
 // Levels `first` … `last`; with fade f, the f levels on each side follow by less and less.
 struct Levels {
   int first = 0;
@@ -66,6 +76,6 @@ struct Texture {
   std::uint64_t seed = 0;
 };
 
-using Edit = std::variant<Move, Pin, Restyle, Texture>;
+using Edit = std::variant<Move, Pin, Drag, Restyle, Texture>;
 
 }  // namespace ifsm::core

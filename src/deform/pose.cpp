@@ -102,8 +102,10 @@ Index length(const Shape& shape, Index nodes) { return nodes * shape.polygon_ste
 }  // namespace
 
 Posed::Posed(const Base& base, const Pose& pose, Manner manner) : base_(base), pose_(pose), manner_(manner) {
-  for (std::size_t level = 1; level < pose.moves.size(); ++level)
-    if (!pose.moves[level].empty()) deepest_ = static_cast<int>(level);
+  for (std::size_t level = 0; level < pose.moves.size(); ++level) {
+    if (level > 0 && pose.moves[level].moves_handles()) deepest_ = static_cast<int>(level);
+    if (!pose.moves[level].details.empty()) deepest_ = static_cast<int>(level) + 1;
+  }
   find_whole_turns();
 }
 
@@ -118,11 +120,14 @@ bool Posed::is_still(const Node& node) const {
 
 bool Posed::is_moved_below(int level, Index node, int deepest) const {
   Index first = node, last = node;
+  const Index d = shape().details_per_node();
   for (int l = level + 1; l <= std::min(deepest, deepest_); ++l) {
+    const auto& details = pose_.moves[static_cast<std::size_t>(l) - 1].details;
+    if (const auto at = details.lower_bound(first * d); at != details.end() && at->first < (last + 1) * d) return true;
     first *= shape().maps();
     last = last * shape().maps() + shape().maps() - 1;
     const Moves& moves = pose_.moves[static_cast<std::size_t>(l)];
-    if (moves.empty()) continue;
+    if (!moves.moves_handles()) continue;
     if (!moves.field.empty()) return true;
     const Handles handles(shape(), base_.model()->closed(), l);
     const auto run = handles.held_by(first, last);
@@ -195,7 +200,7 @@ void Posed::move(Node& node, const std::vector<SmallMatrix>& path) const {
     if (!moves.field.empty()) node.turn = whole_turn(node.level, handed);
     const Handles handles(shape(), base_.model()->closed(), node.level);
     bool moved = false;
-    for (int point = 0; point < shape().control_points() && !moves.empty(); ++point) {
+    for (int point = 0; point < shape().control_points() && moves.moves_handles(); ++point) {
       const Index handle = handles.handle({node.node, point});
       auto place = node.polygon.row(point);
       if (const Vector* told = found(moves.field, handle)) place += (path.front() * *told).transpose();
@@ -211,10 +216,25 @@ void Posed::move(Node& node, const std::vector<SmallMatrix>& path) const {
   if (node.turn != handed || node.polygon != came) find_off(node);
 }
 
+Points Posed::off_of_children(const Node& node) const {
+  const auto& changed = pose_.moves[static_cast<std::size_t>(node.level)].details;
+  const Index first = node.node * shape().details_per_node(), end = first + shape().details_per_node();
+  const Points off = as_points(node.off);
+  auto at = changed.lower_bound(first);
+  if (at == changed.end() || at->first >= end) return Spread(base_.model()->filter())(off, 1);
+  Points details(dimension(), shape().details_per_node());
+  for (; at != changed.end() && at->first < end; ++at)
+    details.matrix().row(at->first - first) = (node.turn * at->second).transpose();
+  Points fine(dimension(), shape().rows());
+  for (Index axis = 0; axis < dimension(); ++axis)
+    synthesize_level(base_.model()->filter(), off.plane(axis), details.plane(axis), fine.plane(axis));
+  return fine;
+}
+
 std::vector<Posed::Node> Posed::children(const Node& node) const {
   const int n = shape().control_points();
-  const bool still = is_still(node);
-  const Points off = Spread(base_.model()->filter())(as_points(node.off), 1);
+  const Points off = off_of_children(node);
+  const bool still = is_still(node) && off.matrix().isZero(0);
   std::vector<Node> all;
   for (int i = 0; i < shape().maps(); ++i) {
     const Index child = node.node * shape().maps() + i;
@@ -321,15 +341,18 @@ Points Posed::places(int level, Index first, Index count) const {
 
 SmallMatrix Posed::frame(int level, Index handle) const {
   const auto holder = Handles(shape(), base_.model()->closed(), level).holder(handle);
-  Node node = root();
+  return turn_at(holder.level, holder.node);
+}
+
+SmallMatrix Posed::turn_at(int level, Index node) const {
+  Node at = root();
   std::vector<SmallMatrix> path;
-  while (node.level < holder.level) {
-    path.push_back(node.turn);
-    const Index nodes = shape().nodes(holder.level - node.level - 1);
-    node = children(node)[static_cast<std::size_t>(holder.node / nodes % shape().maps())];
-    move(node, path);
+  while (at.level < level) {
+    path.push_back(at.turn);
+    at = children(at)[static_cast<std::size_t>(node / shape().nodes(level - at.level - 1) % shape().maps())];
+    move(at, path);
   }
-  return node.turn;
+  return at.turn;
 }
 
 SmallMatrix Posed::whole() const { return whole_turns_.front(); }

@@ -33,19 +33,21 @@ struct Manner {
   Follow follow = Follow::moved;
 };
 
-// Of one level, 1 or finer; keys are handles (handles.h). Displacements are told in the frame of the node that holds
+// Of one level; keys are handles (handles.h). Displacements are told in the frame of the node that holds
 // the handle, at the time of the base: they turn with what is above them.
 struct Moves {
   std::map<Index, Vector> own;    // only the nodes that hold them change (ours)
   std::map<Index, Vector> field;  // the details below take the turn of the curve as a whole (paper 002, Local)
   std::map<Index, Vector> pins;   // places from the centre, whatever happens above
+  // Added to details of this level, told as those of the base are; keys count the level's details. No turn follows.
+  std::map<Index, Vector> details;
 
-  bool empty() const { return own.empty() && field.empty() && pins.empty(); }
+  bool moves_handles() const { return !own.empty() || !field.empty() || !pins.empty(); }
 };
 
 struct Pose {
   Points polygon;            // the control points, from the centre
-  std::vector<Moves> moves;  // [level]; level 0 has none but pins
+  std::vector<Moves> moves;  // [level], the finest included; level 0's handles are the control points
 };
 
 // A base in a pose. Both are borrowed, and must not change. Not for two threads at once.
@@ -59,8 +61,9 @@ class Posed {
   // The matrix that turns displacements of a handle, told in its frame, to where they are seen.
   SmallMatrix frame(int level, Index handle) const;
 
-  // The same for fields.
+  // The same for fields; and for the details of a node.
   SmallMatrix whole() const;
+  SmallMatrix turn_at(int level, Index node) const;
 
   // A model that has this curve: details below the deepest moves are the base's, turned; above them, what analysis of
   // the moved handles finds.
@@ -82,11 +85,12 @@ class Posed {
   Index dimension() const { return pose_.polygon.dimension(); }
   PolygonView base_polygon(int level, Index node) const;
   bool is_still(const Node& node) const;
-  // By moves of levels not below `deepest`.
+  // By moves of handles of levels not below `deepest`, and of details above it.
   bool is_moved_below(int level, Index node, int deepest) const;
 
   Node root() const;
   void find_off(Node& node) const;
+  Points off_of_children(const Node& node) const;
   // The children of a node, their own level's moves not yet made.
   std::vector<Node> children(const Node& node) const;
   // Makes the moves of the node's own level. `path` holds the turns of the nodes above it, the root's first.
@@ -109,7 +113,7 @@ class Posed {
   const Base& base_;
   const Pose& pose_;
   Manner manner_;
-  int deepest_ = 0;                       // level with moves
+  int deepest_ = 0;                       // level whose polygons are moved otherwise than by what is above
   std::vector<SmallMatrix> whole_turns_;  // [level]: of the curve as a whole, fields of this level and above counted
 };
 

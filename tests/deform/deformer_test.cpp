@@ -57,6 +57,15 @@ Points all(const Deformer& deformer) {
   return deformer.places(finest, 0, deformer.count(finest));
 }
 
+Drag drag(int level, std::vector<double> parameters, Points places, Lead lead) {
+  Drag edit;
+  edit.level = level;
+  edit.parameters = std::move(parameters);
+  edit.places = std::move(places);
+  edit.lead = lead;
+  return edit;
+}
+
 // Any edit, of any kind.
 Edit any_edit(const Deformer& deformer, Random& random) {
   const Model& model = deformer.model();
@@ -65,7 +74,15 @@ Edit any_edit(const Deformer& deformer, Random& random) {
     return Levels{first, static_cast<int>(uniform(random, first, model.levels() - 1)),
                   static_cast<int>(uniform(random, 0, 2))};
   };
-  switch (uniform(random, 0, 4)) {
+  switch (uniform(random, 0, 5)) {
+    case 5:
+      if (model.shape().joined()) {
+        const double t = std::uniform_real_distribution<double>()(random);
+        Points place = deformer.at({t});
+        place.matrix() += 0.05 * vectors(random, 1, model.dimension()).matrix();
+        return drag(static_cast<int>(uniform(random, 0, 3)), {t}, place, Lead::details);
+      }
+      [[fallthrough]];
     case 0: return Restyle{levels(), 1 + 0.3 * normal(random), model.dimension() > 1 ? 0.2 : 0.0, -1};
     case 1: return Texture{levels(), nullptr, 0.7, 0, 5};
     case 2: return move(0, {uniform(random, 0, deformer.count(0) - 1)}, vectors(random, 1, model.dimension()));
@@ -306,6 +323,95 @@ TEST(Deformer, HoldsPins) {
   EXPECT_EQ(refused.value(), 7);
   deformer.apply(Pin{3, {7}, false});
   EXPECT_NE(deformer.places(3, 7, 1), place);  // where it would have been
+}
+
+TEST(Deformer, DragsPointsOfTheCurveToTheirPlaces) {
+  Random random(14);
+  for (const Subject& s : subjects(random)) {
+    if (!s.filter->shape().joined()) continue;
+    const ModelPtr model = rough(s, random);
+    for (const Lead lead : {Lead::handles, Lead::details})
+      for (const int level : {0, 2, 3}) {
+        Deformer deformer(model);
+        deformer.apply(move(1, {1}, vectors(random, 1, s.dimension)));
+        const std::vector<double> at{0.11, 0.3, 0.52, 0.77};
+        // Level 0 has few handles, and n = 2 fewer details: as many points as they can lead.
+        const std::size_t most = level > 0 ? 4 : 1;
+        const std::vector<double> some(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(most));
+        Points places = deformer.at(some);
+        places.matrix() += 0.1 * vectors(random, places.count(), s.dimension).matrix();
+        deformer.apply(drag(level, some, places, lead));
+        EXPECT_LE(distance(deformer.at(some), places), 1e-12 * (model->parts().diagonal + largest(places)))
+            << name(*model) << " level " << level << " lead " << static_cast<int>(lead);
+        EXPECT_LE(distance(samples(*deformer.snapshot()), deformer.samples()), 1e-12 * (1 + largest(places)));
+      }
+  }
+}
+
+// What leads them is the solution of least norm of the linear problem: by unit displacements, one by one.
+TEST(Deformer, DragsByTheLeastChange) {
+  Random random(15);
+  for (const Subject& s : subjects(random)) {
+    if (!s.filter->shape().joined()) continue;
+    const ModelPtr model = rough(s, random);
+    const Manner still{Turning::similarity, Follow::none};  // linear
+    const int level = 2;
+    const std::vector<double> at{0.2, 0.21, 0.6};
+    Deformer deformer(model, still);
+    const Index handles = deformer.count(level);
+    Matrix rows(3, handles);
+    for (Index h = 0; h < handles; ++h) {
+      Deformer moved(model, still);
+      Points unit(s.dimension, 1);
+      unit.matrix()(0, 0) = 1;
+      moved.apply(move(level, {h}, unit));
+      rows.col(h) = moved.at(at).matrix().col(0) - deformer.at(at).matrix().col(0);
+    }
+    const Matrix ways = 0.1 * vectors(random, 3, s.dimension).matrix();
+    const Matrix wanted = rows.completeOrthogonalDecomposition().solve(ways);
+    Points places = deformer.at(at);
+    places.matrix() += ways;
+    const Points before = deformer.places(level, 0, handles);
+    deformer.apply(drag(level, at, places, Lead::handles));
+    const Matrix by = deformer.places(level, 0, handles).matrix() - before.matrix();
+    EXPECT_LE((by - wanted).cwiseAbs().maxCoeff(), 1e-10 * (1 + largest(before))) << name(*model);
+  }
+}
+
+TEST(Deformer, DragsLeavePinsAndPointsThatAreToStay) {
+  Random random(16);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 5, 2)), false, 2}, random);
+  Deformer deformer(model);
+  deformer.apply(Pin{3, {14}, true});
+  const Points pinned = deformer.places(3, 14, 1);
+  const std::vector<double> at{0.4, 0.45};
+  Points places = deformer.at(at);
+  places.matrix().row(1) += Eigen::RowVector2d(0.3, -0.2);
+  deformer.apply(drag(3, at, places, Lead::handles));
+  EXPECT_EQ(deformer.places(3, 14, 1), pinned);
+  EXPECT_LE(distance(deformer.at(at), places), 1e-12 * (1 + largest(places)));
+}
+
+TEST(Deformer, RefusesDragsThatContradictEachOther) {
+  Random random(17);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 5, 2)), false, 2}, random);
+  const ModelPtr square = rough({casteljau(Shape(Topology::square, 4, 2, 2)), false, 2}, random);
+  Deformer deformer(model);
+  const Points before = all(deformer);
+  Points two = vectors(random, 2, 2);
+  std::vector<Index> every;
+  for (Index h = 0; h < deformer.count(1); ++h) every.push_back(h);
+  EXPECT_EQ(refusal([&] { deformer.apply(drag(1, {0.3, 0.3}, two, Lead::handles)); }).status(), Status::singular);
+  EXPECT_EQ(refusal([&] { deformer.apply(drag(1, {0.3, 1.1}, two, Lead::handles)); }).index(), 1);
+  EXPECT_EQ(refusal([&] { deformer.apply(drag(1, {0.3}, two, Lead::handles)); }).argument(), "places");
+  EXPECT_EQ(refusal([&] {
+              deformer.apply(drag(model->levels(), {0.3, 0.4}, two, Lead::details));
+            }).argument(),
+            "level");
+  EXPECT_EQ(refusal([&] { Deformer(square).apply(drag(1, {0.3, 0.4}, two, Lead::handles)); }).status(), Status::shape);
+  EXPECT_EQ(all(deformer), before);
+  deformer.apply(Pin{1, every, true});
+  EXPECT_EQ(refusal([&] { deformer.apply(drag(1, {0.3, 0.4}, two, Lead::handles)); }).status(), Status::singular);
 }
 
 TEST(Deformer, BorrowsTexture) {

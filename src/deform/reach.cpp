@@ -1,0 +1,80 @@
+#include "deform/reach.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "deform/handles.h"
+
+namespace ifsm::core {
+namespace {
+
+// A point as weights on the polygon of a node; upwards they are multiplied by the maps, P_child = P T_i (eq. (6)).
+class Climb {
+ public:
+  Climb(const Model& model, Index place) : model_(model), level_(model.levels()) {
+    const Shape& shape = model.shape();
+    node_ = std::min(place / shape.polygon_step(), shape.nodes(level_) - 1);
+    weights_ = Eigen::VectorXd::Unit(shape.control_points(), place - node_ * shape.polygon_step());
+  }
+
+  void to(int level) {
+    for (; level_ > level; --level_, node_ /= model_.shape().maps()) weights_ = columns().topRows(points()) * weights_;
+  }
+  // Of a node's own details, from its child.
+  Eigen::VectorXd of_details() const { return columns().bottomRows(model_.shape().details_per_node()) * weights_; }
+
+  Index node() const { return node_; }
+  const Eigen::VectorXd& weights() const { return weights_; }
+
+ private:
+  int points() const { return model_.shape().control_points(); }
+  // Of R, those that make this node's polygon.
+  RowMatrix columns() const {
+    const Index child = node_ % model_.shape().maps();
+    return model_.filter().matrix().middleCols(child * model_.shape().polygon_step(), points());
+  }
+
+  const Model& model_;
+  int level_;
+  Index node_;
+  Eigen::VectorXd weights_;
+};
+
+// add(place, share) for the two places that a parameter lies between.
+template <class Add>
+void at_places(const Model& model, double parameter, const Add& add) {
+  const double position = model.placement().position(parameter), first = std::floor(position);
+  const Index places = model.placement().places(), place = static_cast<Index>(first);
+  add(place, 1 - (position - first));
+  if (position > first) add((place + 1) % places, position - first);
+}
+
+}  // namespace
+
+Shares handle_shares(const Model& model, int level, double parameter) {
+  const Handles handles(model.shape(), model.closed(), level);
+  Shares shares;
+  at_places(model, parameter, [&](Index place, double share) {
+    Climb climb(model, place);
+    climb.to(level);
+    for (int c = 0; c < model.shape().control_points(); ++c)
+      if (climb.weights()(c) != 0) shares[handles.handle({climb.node(), c})] += share * climb.weights()(c);
+  });
+  return shares;
+}
+
+Shares detail_shares(const Model& model, int level, double parameter) {
+  const int d = model.shape().details_per_node();
+  Shares shares;
+  at_places(model, parameter, [&](Index place, double share) {
+    Climb climb(model, place);
+    climb.to(level + 1);
+    const Eigen::VectorXd own = climb.of_details();
+    for (int j = 0; j < d; ++j)
+      if (own(j) != 0) shares[climb.node() / model.shape().maps() * d + j] += share * own(j);
+  });
+  return shares;
+}
+
+}  // namespace ifsm::core
