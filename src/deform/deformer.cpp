@@ -1,6 +1,5 @@
 #include "deform/deformer.h"
 
-#include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -8,7 +7,7 @@
 
 #include "deform/falloff.h"
 #include "deform/handles.h"
-#include "deform/reach.h"
+#include "deform/leash.h"
 
 namespace ifsm::core {
 namespace {
@@ -254,86 +253,28 @@ void Deformer::check_drag(const Drag& edit) const {
   require_vectors(edit.places, count, "places");
 }
 
-// Least changes of a level's values that lead points of the curve by given ways.
-class Deformer::Leash {
- public:
-  Leash(std::vector<Shares> shares, const std::map<Index, Vector>& pins) {
-    for (const Shares& row : shares)
-      for (const auto& [value, share] : row)
-        if (!pins.contains(value)) column_.try_emplace(value, static_cast<Index>(column_.size()));
-    rows_ = Eigen::MatrixXd::Zero(static_cast<Index>(shares.size()), static_cast<Index>(column_.size()));
-    for (std::size_t k = 0; k < shares.size(); ++k)
-      for (const auto& [value, share] : shares[k])
-        if (const auto at = column_.find(value); at != column_.end()) rows_(static_cast<Index>(k), at->second) = share;
-    solver_.setThreshold(1e-10);  // of the largest pivot: nearer to each other, points are led by rounding
-    if (rows_.cols() > 0) solver_.compute(rows_);
-    const Index led = rows_.cols() > 0 ? solver_.rank() : 0;
-    if (led == rows_.rows()) return;
-    throw Error(Status::singular, "parameters",
-                "The " + std::to_string(rows_.rows()) +
-                    " points cannot be led apart by what is free to move at this level: some depend on each other, or "
-                    "hang on pins alone. Name points once, let pins go, or take a finer level.")
-        .with(static_cast<double>(rows_.rows()))
-        .needs(led);
-  }
-
-  std::map<Index, Vector> changes(const Eigen::MatrixXd& ways) const {
-    const Eigen::MatrixXd solved = solver_.solve(ways);
-    std::map<Index, Vector> all;
-    for (const auto& [value, column] : column_) all.emplace(value, solved.row(column).transpose());
-    return all;
-  }
-  std::vector<Index> values() const {
-    std::vector<Index> all;
-    for (const auto& [value, column] : column_) all.push_back(value);
-    return all;
-  }
-
- private:
-  std::map<Index, Index> column_;
-  Eigen::MatrixXd rows_;
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver_;
-};
-
-// Handles' nodes turn, which moves the points once more: Broyden's method, from the linear solution. Whatever it finds
-// is a combination of the same rows, so that nothing changes less and ends so.
+// Whatever is found is a combination of the linear problem's rows, so that nothing changes less and ends so.
 void Deformer::make(State& next, const Drag& edit) const {
   check_drag(edit);
   if (edit.parameters.empty()) return;
-  const auto level = static_cast<std::size_t>(edit.level);
+  const bool handles = edit.lead == Lead::handles;
   std::vector<Shares> shares;
   for (const double t : edit.parameters)
-    shares.push_back(edit.lead == Lead::handles ? handle_shares(*model_, edit.level, t)
-                                                : detail_shares(*model_, edit.level, t));
-  const Leash leash(std::move(shares),
-                    edit.lead == Lead::handles ? state().pose.moves[level].pins : std::map<Index, Vector>());
+    shares.push_back(handles ? handle_shares(*model_, edit.level, t) : detail_shares(*model_, edit.level, t));
+  const auto& pins = state().pose.moves[static_cast<std::size_t>(edit.level)].pins;
+  const Leash leash(shares, handles ? pins : std::map<Index, Vector>());
   const Posed before = posed();
   const Eigen::MatrixXd wanted = to_center(edit.places, model_->parts().center).matrix();
-  const double close = 2e-13 * (model_->parts().diagonal + wanted.cwiseAbs().maxCoeff());
-  using Flat = Eigen::VectorXd;
-  const auto led = [&](const Flat& ways) {
+  const auto left = [&](const Eigen::MatrixXd& ways) -> Eigen::MatrixXd {
     next.pose = state().pose;
-    for (const auto& [value, by] : leash.changes(Eigen::MatrixXd(ways.reshaped(wanted.rows(), wanted.cols()))))
-      lead(next, before, edit, value, by);
-    const Posed now(*next.base, next.pose, manner_);
-    return Flat((wanted - points_at(now, edit.parameters).matrix()).reshaped());
+    for (const auto& [value, by] : leash.changes(ways)) lead(next, before, edit, value, by);
+    return wanted - points_at(Posed(*next.base, next.pose, manner_), edit.parameters).matrix();
   };
-  Flat ways = Flat::Zero(wanted.size()), left = led(ways);
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(wanted.size(), wanted.size());
-  constexpr int most_steps = 200;
-  for (int step = 0; step < most_steps && left.allFinite() && left.cwiseAbs().maxCoeff() > close; ++step) {
-    const Flat way = inverse * left;
-    ways += way;
-    const Flat now = led(ways), gone = inverse * (left - now);
-    const double part = way.dot(gone);
-    if (std::abs(part) > epsilon * way.squaredNorm()) inverse += (way - gone) * (way.transpose() * inverse) / part;
-    left = now;
-  }
-  if (!left.allFinite() || left.cwiseAbs().maxCoeff() > close)
-    throw Error(
-        Status::numerical, "places",
-        "The points could not be led there: the texture turns more than it is led. Lead by details, or less far.");
-  if (edit.lead == Lead::handles) next.touched = nodes_of(edit.level, leash.values());
+  const double close = 2e-13 * (model_->parts().diagonal + wanted.cwiseAbs().maxCoeff());
+  if (!find_ways(left, wanted.rows(), wanted.cols(), close))
+    throw Error(Status::numerical, "places",
+                "The points could not be led there: the texture turns more than it is led. Lead by details, or less far.");
+  if (handles) next.touched = nodes_of(edit.level, leash.values());
 }
 
 void Deformer::lead(State& next, const Posed& before, const Drag& edit, Index value, const Vector& by) const {

@@ -83,7 +83,6 @@ class Deformer {
   void make(State& next, const Drag& edit) const;
   void make(State& next, const Restyle& edit) const;
   void make(State& next, const Texture& edit) const;
-  class Leash;
   void displace(State& next, const Posed& now, int level, Index handle, const Vector& by, Reach reach) const;
   void check_drag(const Drag& edit) const;
   void lead(State& next, const Posed& before, const Drag& edit, Index value, const Vector& by) const;
