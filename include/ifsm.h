@@ -1075,6 +1075,214 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_refine_options_init(ifsm_refine_options 
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_refine(ifsm_model model, const ifsm_refine_options *options,
                                                      ifsm_model *refined);
 
+/* ------------------------------------------------------------------------------------------------------------------
+ * Deformers: models being edited
+ *
+ * A deformer holds a state over an immutable model, and a history. A state is told against the model, never against the
+ * edit before, so nothing is lost by editing: undo, redo and named states give the same bits again. Level l has
+ * *handles*, the points that ifsm_model_points gives of it (a ring's last one, which repeats the first, is none); level
+ * 0's are the control points. Texture follows: details take the *turn* of their polygon, from where it is in the model
+ * to where it went. Sources: paper 002, section 5, for moves of the control points and of the whole curve; moves that
+ * change nothing but the nodes that hold a handle are this library's.
+ *
+ * Mutable: one call at a time; a second one, of another thread, gets IFSM_ERROR_BUSY and changes nothing. An edit that
+ * fails leaves the deformer as it was. Places are in the samples' coordinates.
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+typedef struct ifsm_deformer {
+  uint64_t id;
+} ifsm_deformer;
+
+/* What a turn may be: the similarity that takes a polygon to where it went best; the rotation alone; or any matrix, as
+ * in paper 002 (directions that the polygon does not span take the similarity). Where the points leave a turn open, it
+ * turns least. */
+enum {
+  IFSM_TURNING_SIMILARITY = 0,
+  IFSM_TURNING_ROTATION = 1,
+  IFSM_TURNING_LINEAR = 2
+};
+
+/* Whose turn details take. */
+enum {
+  IFSM_FOLLOW_MOVED = 0, /* that of the nearest node above them that holds a moved handle; of the root, if none does */
+  IFSM_FOLLOW_EACH = 1,  /* that of their own node's polygon, all the way down: node-frame details; slow */
+  IFSM_FOLLOW_NONE = 2   /* they stay as they are: absolute details */
+};
+
+typedef struct ifsm_deformer_options {
+  uint32_t struct_size;
+  int32_t turning;  /* IFSM_TURNING_… */
+  int32_t follow;   /* IFSM_FOLLOW_… */
+  int32_t reserved; /* 0 */
+} ifsm_deformer_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_options_init(ifsm_deformer_options *options, uint32_t size);
+
+/* model     borrowed; the deformer keeps it alive
+ * options   borrowed; NULL for defaults
+ * deformer  [out] owned by the caller
+ * Errors: INVALID_HANDLE, NULL, RANGE, OPTIONS, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_create(ifsm_model model, const ifsm_deformer_options *options,
+                                                        ifsm_deformer *deformer);
+
+typedef struct ifsm_deformer_info {
+  uint32_t struct_size;
+  int32_t dimension;
+  int32_t levels;
+  int32_t closed;   /* 0 or 1 */
+  int64_t undoable; /* steps that ifsm_deformer_undo can go back */
+  int64_t redoable; /* and ifsm_deformer_redo forth */
+  int64_t edits;    /* that made the present state */
+} ifsm_deformer_info;
+
+/* info  [out] its struct_size is set by the caller. Errors: INVALID_HANDLE, NULL, OPTIONS, BUSY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_describe(ifsm_deformer deformer, ifsm_deformer_info *info);
+
+/* Ends the handle; {0} is fine. Errors: INVALID_HANDLE. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_destroy(ifsm_deformer deformer);
+
+/* What changes with a handle of level 1 or finer. */
+enum {
+  IFSM_REACH_NODES = 0, /* only the nodes that hold it; they turn by their own polygons, and elsewhere every bit stays */
+  IFSM_REACH_CURVE = 1  /* all of the curve: details below take the turn of the whole (paper 002, Local) */
+};
+
+/* How handles near a moved one follow, t being the distance over the radius. */
+enum {
+  IFSM_FALLOFF_NONE = 0,
+  IFSM_FALLOFF_LINEAR = 1, /* 1 - t */
+  IFSM_FALLOFF_SMOOTH = 2  /* (1 - t^2)^2 */
+};
+enum {
+  IFSM_RULER_HANDLES = 0, /* distance counts handles */
+  IFSM_RULER_LENGTH = 1   /* arc length along the level's polyline as it is */
+};
+
+typedef struct ifsm_move_options {
+  uint32_t struct_size;
+  int32_t places;  /* 1: vectors are the places that handles go to; 0: by how much they move */
+  int32_t reach;   /* IFSM_REACH_…; level 0 bends the curve as a whole, whatever it says */
+  int32_t falloff; /* IFSM_FALLOFF_… */
+  int32_t ruler;   /* IFSM_RULER_… */
+  int32_t reserved; /* 0 */
+  double radius;   /* of the falloff, > 0; 0 without one */
+} ifsm_move_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_move_options_init(ifsm_move_options *options, uint32_t size);
+
+/* Moves handles of a level.
+ *
+ * level         0 … levels
+ * handles       handle_count numbers, none twice
+ * vectors       vector_count = handle_count × dimension doubles
+ * options       borrowed; NULL for defaults
+ *
+ * Displacements turn with what is above them: bend the curve afterwards, and a moved part bends along.
+ * Errors: INVALID_HANDLE, NULL, RANGE (a pinned handle, too), NOT_FINITE, SHAPE, OPTIONS, NUMERICAL (above the handle
+ * the curve is drawn together into a point), BUSY, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_move(ifsm_deformer deformer, int32_t level, const int64_t *handles,
+                                                      int64_t handle_count, const double *vectors,
+                                                      int64_t vector_count, const ifsm_move_options *options);
+
+/* Pins handles where they are: whatever moves above them, they stay; hold 0 lets them go to where they would be. An edit,
+ * as moves are. Errors: INVALID_HANDLE, NULL, RANGE, BUSY, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_pin(ifsm_deformer deformer, int32_t level, const int64_t *handles,
+                                                     int64_t handle_count, int32_t hold);
+
+/* What ifsm_deformer_drag changes. */
+enum {
+  IFSM_LEAD_HANDLES = 0, /* handles of the level; the nodes that hold them turn */
+  IFSM_LEAD_DETAILS = 1  /* details of the level; nothing turns */
+};
+
+/* Drags points of the curve, at parameters, to places: exactly, by the least change (sum of squares) of a level's handles
+ * or details. Pinned handles stay. A point that is to stay: drag it to where it is (ifsm_deformer_evaluate).
+ *
+ * parameters    0 … 1 (closed: any, modulo 1), no two of them one point
+ * places        place_count = parameter_count × dimension doubles
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, SHAPE (a square model), SINGULAR (the level cannot lead the points
+ * apart), NUMERICAL (nodes turn so much that no end was found), BUSY, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_drag(ifsm_deformer deformer, int32_t level, int32_t lead,
+                                                      const double *parameters, int64_t parameter_count,
+                                                      const double *places, int64_t place_count);
+
+typedef struct ifsm_restyle_options {
+  uint32_t struct_size;
+  int32_t fade;   /* so many levels on each side follow, less and less, 0 … 64; 0: none */
+  int32_t mirror; /* the number of an axis, from 1, along which details are mirrored; 0: none */
+  int32_t reserved; /* 0 */
+  double angle;   /* radians, in the plane of the first two axes */
+} ifsm_restyle_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_restyle_options_init(ifsm_restyle_options *options, uint32_t size);
+
+/* Appearance: details of levels first … last scaled (-1e12 … 1e12; 0: the truncated model), mirrored and turned, in this order and
+ * after what was done to them before (paper 002, Appearance: the last two levels).
+ * options borrowed; NULL for defaults. Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, OPTIONS, BUSY, MEMORY. Since
+ * 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_restyle(ifsm_deformer deformer, int32_t first, int32_t last,
+                                                         double scale, const ifsm_restyle_options *options);
+
+typedef struct ifsm_texture_options {
+  uint32_t struct_size;
+  int32_t fade;     /* as in ifsm_restyle_options */
+  ifsm_model from;  /* borrowed: of the same topology, n, N and dimension; {0}: random details */
+  double roughness; /* of random ones: H, from level to level sizes shrink by N^-H; 0: 0.5 */
+  double size;      /* root mean square length of those of the first level; 0: of the model's own there */
+  uint64_t seed;    /* other seeds, other details */
+} ifsm_texture_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_texture_options_init(ifsm_texture_options *options, uint32_t size);
+
+/* Texture: details of levels first … last replaced: by those of another model, which lie along this curve as they lay
+ * along theirs, or by random ones, normal, independent, the same bits for the same seed.
+ * options borrowed; NULL for defaults. Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, SHAPE, OPTIONS, BUSY, MEMORY.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_texture(ifsm_deformer deformer, int32_t first, int32_t last,
+                                                         const ifsm_texture_options *options);
+
+/* A step back, and forth again. An edit forgets what was undone. Errors: INVALID_HANDLE, RANGE (no step), BUSY, MEMORY.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_undo(ifsm_deformer deformer);
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_redo(ifsm_deformer deformer);
+
+/* Keeps the present state by a name (1 … 255 bytes, copied; an older one of that name is given up); goes to a kept
+ * state, which is a step that can be undone. Errors: INVALID_HANDLE, NULL, RANGE (an empty, long or unknown name), BUSY,
+ * MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_keep_as(ifsm_deformer deformer, const char *name);
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_go_to(ifsm_deformer deformer, const char *name);
+
+/* Handles first … first + number - 1 of a level, where they are; the finest level's are the curve's places.
+ * points  [out] number × dimension doubles. Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, BUSY, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_points(ifsm_deformer deformer, int32_t level, int64_t first,
+                                                        int64_t number, double *points, int64_t capacity,
+                                                        int64_t *count);
+
+/* The handles of a level that the last step (edit, undo, redo) may have changed: what is to be asked for again. All
+ * others have kept their bits.
+ * first, number  [out] a window for ifsm_deformer_points. Errors: INVALID_HANDLE, NULL, RANGE, BUSY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_changed(ifsm_deformer deformer, int32_t level, int64_t *first,
+                                                         int64_t *number);
+
+/* The curve at the samples, and at parameters (0 … 1; closed: any, modulo 1), as ifsm_model_samples and
+ * ifsm_model_evaluate give them of a model, on the polyline.
+ * points  [out] doubles. Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, CAPACITY, BUSY, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_samples(ifsm_deformer deformer, double *points, int64_t capacity,
+                                                         int64_t *count);
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_evaluate(ifsm_deformer deformer, const double *parameters,
+                                                          int64_t parameter_count, double *points, int64_t capacity,
+                                                          int64_t *count);
+
+/* The present state as a model of its own, which agrees with ifsm_deformer_points within 1e-12 of the curve's size.
+ * Details below the deepest moved handles are the model's, turned; sparse ones stay sparse.
+ * model  [out] owned by the caller. Errors: INVALID_HANDLE, NULL, BUSY, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_snapshot(ifsm_deformer deformer, ifsm_model *model);
+
 #ifdef __cplusplus
 }
 #endif

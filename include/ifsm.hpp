@@ -578,6 +578,152 @@ class Model {
 };
 
 // ------------------------------------------------------------------------------------------------------------------
+// Deformers: models being edited. The one mutable class: one thread at a time, or Error with IFSM_ERROR_BUSY
+
+enum class Turning : std::int32_t {
+  similarity = IFSM_TURNING_SIMILARITY,
+  rotation = IFSM_TURNING_ROTATION,
+  linear = IFSM_TURNING_LINEAR
+};
+enum class Following : std::int32_t { moved = IFSM_FOLLOW_MOVED, each = IFSM_FOLLOW_EACH, none = IFSM_FOLLOW_NONE };
+enum class Reach : std::int32_t { nodes = IFSM_REACH_NODES, curve = IFSM_REACH_CURVE };
+enum class Falloff : std::int32_t {
+  none = IFSM_FALLOFF_NONE,
+  linear = IFSM_FALLOFF_LINEAR,
+  smooth = IFSM_FALLOFF_SMOOTH
+};
+enum class Ruler : std::int32_t { handles = IFSM_RULER_HANDLES, length = IFSM_RULER_LENGTH };
+enum class Lead : std::int32_t { handles = IFSM_LEAD_HANDLES, details = IFSM_LEAD_DETAILS };
+
+// How handles move, as in ifsm_move_options.
+struct MoveOptions {
+  bool places = false;  // vectors are where handles go to
+  Reach reach = Reach::nodes;
+  Falloff falloff = Falloff::none;
+  Ruler ruler = Ruler::handles;
+  double radius = 0;
+};
+
+// How details of levels change, as in ifsm_restyle_options.
+struct RestyleOptions {
+  int fade = 0;
+  int mirror = 0;  // the number of an axis, from 1
+  double angle = 0;
+};
+
+// Where other details come from, as in ifsm_texture_options.
+struct TextureOptions {
+  int fade = 0;
+  const Model* from = nullptr;  // none: random ones
+  double roughness = 0;
+  double size = 0;
+  std::uint64_t seed = 0;
+};
+
+class Deformer {
+ public:
+  struct Window {
+    std::int64_t first, number;
+  };
+
+  Deformer() = default;                                                // the null handle
+  explicit Deformer(ifsm_deformer owned) noexcept : handle_(owned) {}  // takes ownership
+  explicit Deformer(const Model& model, Turning turning = Turning::similarity, Following follow = Following::moved) {
+    ifsm_deformer_options options{};
+    detail::check(ifsm_deformer_options_init(&options, sizeof options));
+    options.turning = static_cast<std::int32_t>(turning);
+    options.follow = static_cast<std::int32_t>(follow);
+    ifsm_deformer made{};
+    detail::check(ifsm_deformer_create(model.handle(), &options, &made));
+    handle_ = Owner(made);
+  }
+
+  ifsm_deformer_info describe() const {
+    return detail::describe<ifsm_deformer_info>([&](auto* told) { return ifsm_deformer_describe(handle(), told); });
+  }
+
+  // Vectors are interleaved, one a handle.
+  Deformer& move(int level, const std::vector<std::int64_t>& handles, const std::vector<double>& vectors,
+                 const MoveOptions& wanted = {}) {
+    ifsm_move_options options{};
+    detail::check(ifsm_move_options_init(&options, sizeof options));
+    options.places = wanted.places ? 1 : 0;
+    options.reach = static_cast<std::int32_t>(wanted.reach);
+    options.falloff = static_cast<std::int32_t>(wanted.falloff);
+    options.ruler = static_cast<std::int32_t>(wanted.ruler);
+    options.radius = wanted.radius;
+    return done(ifsm_deformer_move(handle(), level, handles.data(), detail::size_of(handles.size()), vectors.data(),
+                                   detail::size_of(vectors.size()), &options));
+  }
+  Deformer& pin(int level, const std::vector<std::int64_t>& handles, bool hold = true) {
+    return done(ifsm_deformer_pin(handle(), level, handles.data(), detail::size_of(handles.size()), hold ? 1 : 0));
+  }
+  Deformer& drag(int level, const std::vector<double>& parameters, const std::vector<double>& places,
+                 Lead lead = Lead::handles) {
+    return done(ifsm_deformer_drag(handle(), level, static_cast<std::int32_t>(lead), parameters.data(),
+                                   detail::size_of(parameters.size()), places.data(), detail::size_of(places.size())));
+  }
+  Deformer& restyle(int first, int last, double scale, const RestyleOptions& wanted = {}) {
+    ifsm_restyle_options options{};
+    detail::check(ifsm_restyle_options_init(&options, sizeof options));
+    options.fade = wanted.fade;
+    options.mirror = wanted.mirror;
+    options.angle = wanted.angle;
+    return done(ifsm_deformer_restyle(handle(), first, last, scale, &options));
+  }
+  Deformer& texture(int first, int last, const TextureOptions& wanted = {}) {
+    ifsm_texture_options options{};
+    detail::check(ifsm_texture_options_init(&options, sizeof options));
+    options.fade = wanted.fade;
+    if (wanted.from) options.from = wanted.from->handle();
+    options.roughness = wanted.roughness;
+    options.size = wanted.size;
+    options.seed = wanted.seed;
+    return done(ifsm_deformer_texture(handle(), first, last, &options));
+  }
+  Deformer& undo() { return done(ifsm_deformer_undo(handle())); }
+  Deformer& redo() { return done(ifsm_deformer_redo(handle())); }
+  Deformer& keep_as(const std::string& name) { return done(ifsm_deformer_keep_as(handle(), name.c_str())); }
+  Deformer& go_to(const std::string& name) { return done(ifsm_deformer_go_to(handle(), name.c_str())); }
+
+  std::vector<double> points(int level, std::int64_t first, std::int64_t number) const {
+    return detail::fetch<double>(
+        [&](auto... to) { return ifsm_deformer_points(handle(), level, first, number, to...); });
+  }
+  std::vector<double> samples() const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_deformer_samples(handle(), to...); });
+  }
+  std::vector<double> evaluate(const std::vector<double>& parameters) const {
+    return detail::fetch<double>([&](auto... to) {
+      return ifsm_deformer_evaluate(handle(), parameters.data(), detail::size_of(parameters.size()), to...);
+    });
+  }
+  Window changed(int level) const {
+    Window told{};
+    detail::check(ifsm_deformer_changed(handle(), level, &told.first, &told.number));
+    return told;
+  }
+  Model snapshot() const {
+    ifsm_model made{};
+    detail::check(ifsm_deformer_snapshot(handle(), &made));
+    return Model(made);
+  }
+
+  ifsm_deformer handle() const noexcept { return handle_.get(); }
+  ifsm_deformer release() noexcept { return handle_.release(); }  // the caller destroys it
+
+ private:
+  using Owner = detail::Owner<ifsm_deformer, ifsm_deformer_destroy>;
+
+  Deformer& done(ifsm_status status) {
+    detail::check(status);
+    return *this;
+  }
+
+  Owner handle_;
+};
+
+// ------------------------------------------------------------------------------------------------------------------
 // Fits
 
 // What a fit may be told; zero means the default everywhere, as in ifsm_fit_options.

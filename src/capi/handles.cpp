@@ -57,7 +57,7 @@ class SpinLock {
   std::atomic_flag flag_;
 };
 
-bool is_kind(std::uint64_t kind) { return kind >= 1 && kind <= static_cast<std::uint64_t>(Kind::fit); }
+bool is_kind(std::uint64_t kind) { return kind >= 1 && kind <= static_cast<std::uint64_t>(Kind::deformer); }
 
 }  // namespace
 
@@ -76,6 +76,7 @@ const char* kind_name(Kind kind) {
     case Kind::filter: return "filter";
     case Kind::model: return "model";
     case Kind::fit: return "fit";
+    case Kind::deformer: return "deformer";
   }
   return "handle";
 }

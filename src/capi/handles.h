@@ -5,8 +5,7 @@
 // and one made up, or of another library or process, meets neither cookie nor generation but by a chance of 2^-60.
 //
 // The table holds immutable objects, and those whose every operation is atomic: a borrower shares them. A mutable kind
-// would add a busy flag to its own object, taken by its own borrow (IFSM_ERROR_BUSY when taken); the table need not
-// know.
+// has a busy flag in its own object, taken for the length of a call (deforming.h); the table need not know.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@
 
 namespace ifsm::core {
 
-enum class Kind : std::uint8_t { cancel = 1, filter = 2, model = 3, fit = 4 };
+enum class Kind : std::uint8_t { cancel = 1, filter = 2, model = 3, fit = 4, deformer = 5 };
 
 // "model" for Kind::model.
 const char* kind_name(Kind kind);

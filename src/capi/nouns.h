@@ -11,6 +11,7 @@
 namespace ifsm::core {
 
 class CancelToken;
+struct Deforming;
 class Filter;
 class Model;
 struct FitResult;
@@ -37,6 +38,12 @@ template <>
 struct Noun<ifsm_fit> {
   using Object = const FitResult;
   static constexpr Kind kind = Kind::fit;
+};
+
+template <>
+struct Noun<ifsm_deformer> {
+  using Object = Deforming;  // not const: its flag says who may use it
+  static constexpr Kind kind = Kind::deformer;
 };
 
 template <class Handle>

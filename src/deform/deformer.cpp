@@ -105,6 +105,12 @@ std::vector<Edit> Deformer::log() const {
   return edits;
 }
 
+Index Deformer::edits() const {
+  Index count = 0;
+  for (auto entry = state().log; entry; entry = entry->before) ++count;
+  return count;
+}
+
 int Deformer::checked_level(int level, int most) const { return static_cast<int>(in_range(level, 0, most, "level")); }
 
 Index Deformer::handle_count(int level) const { return model_->shape().places(level, model_->closed()); }
@@ -237,20 +243,24 @@ void Deformer::make(State& next, const Pin& edit) const {
   next.touched = nodes_of(edit.level, edit.handles);
 }
 
+void Deformer::check_parameters(const std::vector<double>& parameters) const {
+  const auto count = static_cast<Index>(parameters.size());
+  require_finite(parameters.data(), count, "parameters");
+  for (Index k = 0; k < count && !model_->closed(); ++k)
+    if (const double t = parameters[static_cast<std::size_t>(k)]; t < 0 || t > 1)
+      throw Error(Status::range, "parameters",
+                  "parameters[" + std::to_string(k) + "] is " + text_of(t) + "; an open curve has parameters 0 to 1.")
+          .at(k)
+          .with(t);
+}
+
 void Deformer::check_drag(const Drag& edit) const {
   if (!model_->shape().joined())
     throw Error(Status::shape, "deformer",
                 "The model is square: its places are means of several polygons. Move its handles instead.");
   checked_level(edit.level, edit.lead == Lead::details ? model_->levels() - 1 : model_->levels());
-  const auto count = static_cast<Index>(edit.parameters.size());
-  require_finite(edit.parameters.data(), count, "parameters");
-  for (Index k = 0; k < count && !model_->closed(); ++k)
-    if (const double t = edit.parameters[static_cast<std::size_t>(k)]; t < 0 || t > 1)
-      throw Error(Status::range, "parameters",
-                  "parameters[" + std::to_string(k) + "] is " + text_of(t) + "; an open curve has parameters 0 to 1.")
-          .at(k)
-          .with(t);
-  require_vectors(edit.places, count, "places");
+  check_parameters(edit.parameters);
+  require_vectors(edit.places, static_cast<Index>(edit.parameters.size()), "places");
 }
 
 // Whatever is found is a combination of the linear problem's rows, so that nothing changes less and ends so.
@@ -272,8 +282,9 @@ void Deformer::make(State& next, const Drag& edit) const {
   };
   const double close = 2e-13 * (model_->parts().diagonal + wanted.cwiseAbs().maxCoeff());
   if (!find_ways(left, wanted.rows(), wanted.cols(), close))
-    throw Error(Status::numerical, "places",
-                "The points could not be led there: the texture turns more than it is led. Lead by details, or less far.");
+    throw Error(
+        Status::numerical, "places",
+        "The points could not be led there: the texture turns more than it is led. Lead by details, or less far.");
   if (handles) next.touched = nodes_of(edit.level, leash.values());
 }
 
@@ -289,12 +300,17 @@ void Deformer::check_levels(const Levels& levels) const {
     throw Error(Status::range, "first", "The model has no levels, hence no details to look otherwise.");
   in_range(levels.first, 0, model_->levels() - 1, "first");
   in_range(levels.last, levels.first, model_->levels() - 1, "last");
-  in_range(levels.fade, 0, model_->levels(), "fade");
+  in_range(levels.fade, 0, 64, "fade");
 }
 
 void Deformer::make(State& next, const Restyle& edit) const {
   check_levels(edit.levels);
   require_finite(&edit.scale, 1, "scale");
+  constexpr double most_scale = 1e12;  // beyond, what is left of the polygons below is rounding
+  if (std::abs(edit.scale) > most_scale)
+    throw Error(Status::range, "scale",
+                "scale is " + text_of(edit.scale) + "; give a factor from -1e12 to 1e12, or scale the whole model.")
+        .with(edit.scale);
   require_finite(&edit.angle, 1, "angle");
   in_range(edit.mirror, -1, model_->dimension() - 1, "mirror");
   if (edit.angle != 0 && model_->dimension() == 1)
@@ -346,10 +362,14 @@ void Deformer::make(State& next, const Texture& edit) const {
 
 Index Deformer::count(int level) const { return handle_count(checked_level(level, model_->levels())); }
 
-Points Deformer::places(int level, Index first, Index count) const {
-  const Index all = this->count(level);
+void Deformer::check_window(int level, Index first, Index number) const {
+  const Index all = count(level);
   in_range(first, 0, all, "first");
-  in_range(count, 0, all - first, "count");
+  in_range(number, 0, all - first, "number");
+}
+
+Points Deformer::places(int level, Index first, Index count) const {
+  check_window(level, first, count);
   if (count == 0) return {model_->dimension(), 0};
   return from_center(posed().places(level, first, count), model_->parts().center);
 }

@@ -37,11 +37,14 @@ class Deformer {
   void go_to(const std::string& name);
   bool knows(const std::string& name) const { return named_.contains(name); }
 
-  // The edits that made the present state, the first one first.
+  // The edits that made the present state, the first one first; how many.
   std::vector<Edit> log() const;
+  Index edits() const;
 
   // Places of a level, in the samples' coordinates: those that the last step may have changed are changed(level).
   Points places(int level, Index first, Index count) const;
+  void check_window(int level, Index first, Index number) const;  // what places() refuses: "level", "first", "number"
+  void check_parameters(const std::vector<double>& parameters) const;
   // Points of the finest polyline. Open: parameters 0 … 1; closed: any, modulo 1.
   Points at(const std::vector<double>& parameters) const;
   Index count(int level) const;

@@ -19,10 +19,11 @@ Leash::Leash(const std::vector<Shares>& shares, const std::map<Index, Vector>& h
   if (rows.cols() > 0) solver_.compute(rows);
   const Index led = rows.cols() > 0 ? solver_.rank() : 0;
   if (led == points) return;
-  throw Error(Status::singular, "parameters",
-              "The " + std::to_string(points) +
-                  " points cannot be led apart by what is free to move at this level: some depend on each other, or hang "
-                  "on pins alone. Name points once, let pins go, or take a finer level.")
+  throw Error(
+      Status::singular, "parameters",
+      "The " + std::to_string(points) +
+          " points cannot be led apart by what is free to move at this level: some depend on each other, or hang "
+          "on pins alone. Name points once, let pins go, or take a finer level.")
       .with(static_cast<double>(points))
       .needs(led);
 }

@@ -26,8 +26,9 @@ class Leash {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver_;
 };
 
-// Where points come nonlinearly, nodes turning as they are led: ways that leave nothing, by Broyden's method. `left` says
-// what given ways leave of the wanted ones. Returns whether it came `close`; the last call of `left` was for the end.
+// Where points come nonlinearly, nodes turning as they are led: ways that leave nothing, by Broyden's method. `left`
+// says what given ways leave of the wanted ones. Returns whether it came `close`; the last call of `left` was for the
+// end.
 bool find_ways(const std::function<Eigen::MatrixXd(const Eigen::MatrixXd& ways)>& left, Index points, Index dimension,
                double close);
 

@@ -102,8 +102,9 @@ void every_right_call_succeeds() {
 TEST(Misuse, StartsFromCallsThatSucceed) { every_right_call_succeeds(); }
 
 TEST(Misuse, NullPointersAreRefusedOrHaveAMeaning) {
-  for_each({"handle_out", "struct_in", "options_in", "options_out", "struct_out", "doubles_in", "ints_in", "bytes_in",
-            "doubles_out", "ints_out", "bytes_out", "count_out", "double_out", "int_out", "string", "callback", "user"},
+  for_each({"handle_out", "struct_in", "options_in", "options_out", "struct_out", "doubles_in", "ints_in", "int64s_in",
+            "bytes_in", "doubles_out", "ints_out", "bytes_out", "count_out", "double_out", "int_out", "string", "name",
+            "callback", "user"},
            [](const Function& function, std::size_t i, const Parameter& parameter) {
              Call call(world(), function);
              call[i].pointer = nullptr;
@@ -252,6 +253,24 @@ TEST(Misuse, ArraysWithOneBadElementAreRefusedWithItsIndex) {
   });
 }
 
+TEST(Misuse, ArraysOfWideIntegersWithOneBadElementAreRefusedWithItsIndex) {
+  for_each({"int64s_in"}, [](const Function& function, std::size_t i, const Parameter& parameter) {
+    Call call(world(), function);
+    for (std::int64_t at = 0; at < call.elements(i); ++at) {
+      auto* element = reinterpret_cast<std::int64_t*>(call.buffer(i).data()) + at;
+      const std::int64_t good = *element;
+      for (const std::int64_t value :
+           {world().number(parameter.low) - 1, world().number(parameter.high) + 1, least, most}) {
+        *element = value;
+        expect_refused(call, {IFSM_ERROR_RANGE}, {parameter.name},
+                       text(parameter, "that hold " + std::to_string(value)));
+        EXPECT_EQ(last_error().index, at) << function.name << ", " << parameter.name;
+      }
+      *element = good;
+    }
+  });
+}
+
 TEST(Misuse, CountsThatCannotBeAreRefused) {
   for_each({"count"}, [](const Function& function, std::size_t i, const Parameter& parameter) {
     const std::set<std::string> either = {parameter.name, function.parameters[i - 1].name};
@@ -280,9 +299,11 @@ TEST(Misuse, ACountThatDoesNotFitIsRefusedWithTheOneThatDoes) {
       }
       Statuses expected = bad_count;
       if (function.parameters[i - 1].kind == "bytes_in") expected.insert(IFSM_ERROR_FORMAT);
-      expect_refused(call, expected, {parameter.name, function.parameters[i - 1].name},
-                     text(parameter, std::to_string(count)));
-      if (status == IFSM_ERROR_SHAPE) {
+      std::set<std::string> blamed = {parameter.name, function.parameters[i - 1].name};
+      for (const Parameter& other : function.parameters)  // which of two counts is wrong cannot be known
+        if (other.kind == "count") blamed.insert(other.name);
+      expect_refused(call, expected, blamed, text(parameter, std::to_string(count)));
+      if (status == IFSM_ERROR_SHAPE && last_error().argument == parameter.name) {
         EXPECT_EQ(last_error().required, right) << function.name << ", " << parameter.name;
       }
     }

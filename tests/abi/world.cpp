@@ -40,7 +40,9 @@ std::vector<std::uint8_t> bytes_of(const T* values, std::size_t count) {
 
 }  // namespace
 
-bool is_array_in(const std::string& kind) { return kind == "doubles_in" || kind == "ints_in" || kind == "bytes_in"; }
+bool is_array_in(const std::string& kind) {
+  return kind == "doubles_in" || kind == "ints_in" || kind == "int64s_in" || kind == "bytes_in";
+}
 bool is_array_out(const std::string& kind) {
   return kind == "doubles_out" || kind == "ints_out" || kind == "bytes_out";
 }
@@ -57,7 +59,10 @@ World::World() {
     samples.insert(samples.end(), {k < 12 ? 1.0 * k : 23.0 - k, static_cast<double>((k * k) % 7)});
   doubles_["polygon"] = {0, 0, 1, 2, 3, 1};
   doubles_["parameters"] = {0, 0.25, 0.5, 1};
+  doubles_["two_parameters"] = {0.25, 0.75};
+  doubles_["vectors"] = {0.5, 1, -0.25, 2};
   ints_["symbols"] = {0, 1, 1};
+  wide_ints_["handles"] = {1, 2};
 
   ifsm_filter filter{};
   must(ifsm_filter_named("casteljau", IFSM_TOPOLOGY_JOINED, control_points, maps, &filter), "filter");
@@ -85,9 +90,11 @@ World::World() {
   info.struct_size = sizeof info;
   must(ifsm_model_describe(model, &info), "info");
   numbers_ = {{"L", info.levels}, {"L-1", info.levels - 1}, {"curves-1", 0}, {"budgets-1", 0}};
+  numbers_["H-1"] = 4;  // handles of level 1
 
   ids_["ifsm_cancel"] = fresh("ifsm_cancel");
   ids_["ifsm_fit"] = fresh("ifsm_fit");
+  ids_["ifsm_deformer"] = fresh("ifsm_deformer");
 }
 
 World::~World() {
@@ -110,6 +117,7 @@ std::uint64_t World::fresh(const std::string& type) const {
     must(ifsm_model_with_filter({id("ifsm_model")}, {id("ifsm_filter")}, &made), "model");
     return made.id;
   }
+  if (type == "ifsm_deformer") return deformer();
   ifsm_fit made{};
   const ifsm_curve one = curve();
   ifsm_fit_curve_options options;  // the stage that every question about a fit can be asked
@@ -120,7 +128,20 @@ std::uint64_t World::fresh(const std::string& type) const {
   return made.id;
 }
 
+// With something to undo, something to make again, and a state that is kept.
+std::uint64_t World::deformer() const {
+  ifsm_deformer made{};
+  must(ifsm_deformer_create({id("ifsm_model")}, nullptr, &made), "deformer");
+  const std::int64_t handle = 1;
+  const double by[] = {0.25, 0.5};
+  for (int edit = 0; edit < 2; ++edit) must(ifsm_deformer_move(made, 1, &handle, 1, by, 2, nullptr), "move");
+  must(ifsm_deformer_keep_as(made, "kept"), "keep");
+  must(ifsm_deformer_undo(made), "undo");
+  return made.id;
+}
+
 ifsm_status World::destroy(const std::string& type, std::uint64_t id) {
+  if (type == "ifsm_deformer") return ifsm_deformer_destroy({id});
   if (type == "ifsm_cancel") return ifsm_cancel_destroy({id});
   if (type == "ifsm_filter") return ifsm_filter_destroy({id});
   if (type == "ifsm_model") return ifsm_model_destroy({id});
@@ -157,8 +178,13 @@ Call::Call(const World& world, const Function& function)
 
 Call::~Call() {
   for (std::size_t i = 0; i < arguments_.size(); ++i)
-    if (const Parameter& parameter = function_.parameters[i]; parameter.ownership == "destroyed")
+    if (const Parameter& parameter = function_.parameters[i]; is_own(parameter))
       static_cast<void>(World::destroy(parameter.type, arguments_[i].id));
+}
+
+// What a call ends or changes is made for it alone.
+bool Call::is_own(const Parameter& parameter) {
+  return parameter.kind == "handle" && (parameter.ownership == "destroyed" || parameter.type == "ifsm_deformer");
 }
 
 void Call::prepare(std::size_t i) {
@@ -167,12 +193,12 @@ void Call::prepare(std::size_t i) {
   std::vector<std::uint8_t>& buffer = buffers_[i];
   const std::string& kind = parameter.kind;
   if (kind == "handle") {
-    argument.id = parameter.ownership == "destroyed" ? world_.fresh(parameter.type) : world_.id(parameter.type);
+    argument.id = is_own(parameter) ? world_.fresh(parameter.type) : world_.id(parameter.type);
   } else if (kind == "enum" || kind == "integer" || kind == "number") {
     argument.integer = std::stoll(parameter.good);
   } else if (kind == "double") {
     argument.real = std::stod(parameter.good);
-  } else if (kind == "string") {
+  } else if (kind == "string" || kind == "name") {
     buffer = bytes_of(parameter.good.c_str(), parameter.good.size() + 1);
   } else if (kind == "doubles_in") {
     const std::vector<double>& values = world_.doubles(parameter.good);
@@ -180,6 +206,10 @@ void Call::prepare(std::size_t i) {
     elements_[i] = static_cast<std::int64_t>(values.size());
   } else if (kind == "ints_in") {
     const std::vector<std::int32_t>& values = world_.ints(parameter.good);
+    buffer = bytes_of(values.data(), values.size());
+    elements_[i] = static_cast<std::int64_t>(values.size());
+  } else if (kind == "int64s_in") {
+    const std::vector<std::int64_t>& values = world_.wide_ints(parameter.good);
     buffer = bytes_of(values.data(), values.size());
     elements_[i] = static_cast<std::int64_t>(values.size());
   } else if (kind == "bytes_in") {

@@ -28,16 +28,20 @@ class World {
 
   const std::vector<double>& doubles(const std::string& name) const { return doubles_.at(name); }
   const std::vector<std::int32_t>& ints(const std::string& name) const { return ints_.at(name); }
+  const std::vector<std::int64_t>& wide_ints(const std::string& name) const { return wide_ints_.at(name); }
   const std::vector<std::uint8_t>& saved() const { return saved_; }
-  std::int64_t number(const std::string& word) const;  // "7", or "L", "L-1", "curves-1", "budgets-1"
+  std::int64_t number(const std::string& word) const;  // "7", or "L", "L-1", "H-1", "curves-1", "budgets-1"
 
   ifsm_curve curve() const;
   ifsm_curve polygon() const;
 
  private:
+  std::uint64_t deformer() const;
+
   std::map<std::string, std::uint64_t> ids_;
   std::map<std::string, std::vector<double>> doubles_;
   std::map<std::string, std::vector<std::int32_t>> ints_;
+  std::map<std::string, std::vector<std::int64_t>> wide_ints_;
   std::vector<std::uint8_t> saved_;
   std::map<std::string, std::int64_t> numbers_;
 };
@@ -63,6 +67,7 @@ class Call {
   void forget_handles();      // destroys what a successful run has created
 
  private:
+  static bool is_own(const Parameter& parameter);
   void prepare(std::size_t parameter);
 
   const World& world_;

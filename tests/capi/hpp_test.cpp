@@ -101,6 +101,30 @@ TEST(Cpp, ReadsEveryPartOfAModel) {
   EXPECT_EQ(model.significance(1).size(), 2u * 2);
 }
 
+TEST(Cpp, DeformsAndUndoes) {
+  const ifsm::Model model = wavy_model();
+  ifsm::Deformer deformer(model, ifsm::Turning::rotation);
+  const auto before = deformer.samples();
+  const int finest = deformer.describe().levels;
+  ifsm::MoveOptions falls;
+  falls.falloff = ifsm::Falloff::smooth;
+  falls.radius = 2;
+  deformer.keep_as("start").move(0, {1}, {1, 2}).move(2, {3}, {0.5, 0.5}, falls).pin(2, {5});
+  ifsm::RestyleOptions turned;
+  turned.angle = 0.1;
+  deformer.restyle(0, 1, 1.5, turned).texture(finest - 1, finest - 1);
+  auto place = deformer.evaluate({0.4});
+  place[0] += 0.25;
+  deformer.drag(2, {0.4}, place, ifsm::Lead::details);
+  EXPECT_NEAR(deformer.evaluate({0.4})[0], place[0], 1e-9);
+  EXPECT_EQ(deformer.describe().undoable, 6);
+  EXPECT_EQ(deformer.snapshot().samples().size(), before.size());
+  EXPECT_GT(deformer.changed(finest).number, 0);
+  EXPECT_EQ(deformer.points(2, 5, 1), (deformer.undo().redo(), deformer.points(2, 5, 1)));
+  EXPECT_EQ(deformer.go_to("start").samples(), before);
+  EXPECT_THROW(deformer.redo(), ifsm::Error);
+}
+
 TEST(Cpp, AsksEveryQuestion) {
   const ifsm::Model model = wavy_model();
   EXPECT_GT(model.length(), 10);

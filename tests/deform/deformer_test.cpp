@@ -499,7 +499,7 @@ TEST(Deformer, RefusesWhatItCannotDoAndStaysAsItWas) {
   EXPECT_EQ(refusal([&] { deformer.go_to("nowhere"); }).argument(), "name");
   EXPECT_EQ(refusal([&] { deformer.redo(); }).status(), Status::range);
   EXPECT_EQ(refusal([&] { Deformer(model).undo(); }).status(), Status::range);
-  EXPECT_EQ(refusal([&] { deformer.places(1, 8, 2); }).argument(), "count");
+  EXPECT_EQ(refusal([&] { deformer.places(1, 8, 2); }).argument(), "number");
 }
 
 TEST(Deformer, RefusesMovesBelowAPointAndNotAbove) {

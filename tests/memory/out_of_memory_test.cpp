@@ -35,6 +35,7 @@ struct World {
   ifsm_filter filter{};
   ifsm_model model{};
   ifsm_fit fit{}, curve_fit{};
+  ifsm_deformer deformer{};  // with an edit to undo
   std::vector<double> samples, matrix, details, polygon;
   std::vector<std::uint8_t> json, cbor;
   std::vector<double> room = std::vector<double>(4096);
@@ -58,11 +59,19 @@ ifsm_status drop_cancel(std::uint64_t id) { return ifsm_cancel_destroy({id}); }
 ifsm_status drop_filter(std::uint64_t id) { return ifsm_filter_destroy({id}); }
 ifsm_status drop_model(std::uint64_t id) { return ifsm_model_destroy({id}); }
 ifsm_status drop_fit(std::uint64_t id) { return ifsm_fit_destroy({id}); }
+ifsm_status drop_deformer(std::uint64_t id) { return ifsm_deformer_destroy({id}); }
 
 template <class Handle>
 Handle* as(std::uint64_t* made) {
   static_assert(sizeof(Handle) == sizeof *made);
   return reinterpret_cast<Handle*>(made);
+}
+
+// An edit, and back: what was refused for want of memory has changed nothing.
+template <class Edit>
+ifsm_status edited(World& world, const Edit& edit) {
+  const ifsm_status status = edit(world.deformer);
+  return status == IFSM_OK ? ifsm_deformer_undo(world.deformer) : status;
 }
 
 ifsm_status fit_with_polish(World& world, std::uint64_t* made, std::int32_t polish) {
@@ -319,6 +328,53 @@ const Scenario scenarios[] = {
      drop_nothing},
     {"model_refine", "ifsm_model_refine", 1, 1, refine, drop_model},
     {"model_refine_two_threads", "ifsm_model_refine", 2, 1, refine, drop_model},
+    {"deformer_create", "ifsm_deformer_create", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_deformer_create(world.model, nullptr, as<ifsm_deformer>(made));
+     },
+     drop_deformer},
+    {"deformer_move", "ifsm_deformer_move", 1, 1,
+     [](World& world, std::uint64_t*) {
+       return edited(world, [](ifsm_deformer deformer) {
+         ifsm_move_options options{};
+         options.struct_size = sizeof options;
+         options.falloff = IFSM_FALLOFF_SMOOTH;
+         options.ruler = IFSM_RULER_LENGTH;
+         options.radius = 20;
+         const std::int64_t handles[] = {3, 5};
+         const double by[] = {1, 2, 3, 4};
+         return ifsm_deformer_move(deformer, 3, handles, 2, by, 4, &options);
+       });
+     },
+     drop_nothing},
+    {"deformer_drag", "ifsm_deformer_drag", 1, 97,
+     [](World& world, std::uint64_t*) {
+       return edited(world, [](ifsm_deformer deformer) {
+         const double parameters[] = {0.3, 0.6}, places[] = {40, 12, 75, 20};
+         return ifsm_deformer_drag(deformer, 4, IFSM_LEAD_HANDLES, parameters, 2, places, 4);
+       });
+     },
+     drop_nothing},
+    {"deformer_texture", "ifsm_deformer_texture", 1, 1,
+     [](World& world, std::uint64_t*) {
+       return edited(world, [&](ifsm_deformer deformer) {
+         ifsm_texture_options options{};
+         options.struct_size = sizeof options;
+         options.from = world.model;
+         options.fade = 1;
+         return ifsm_deformer_texture(deformer, 2, 4, &options);
+       });
+     },
+     drop_nothing},
+    {"deformer_samples", "ifsm_deformer_samples", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_deformer_samples(world.deformer, world.room.data(), 4096, &count);
+     },
+     drop_nothing},
+    {"deformer_snapshot", "ifsm_deformer_snapshot", 1, 1,
+     [](World& world, std::uint64_t* made) { return ifsm_deformer_snapshot(world.deformer, as<ifsm_model>(made)); },
+     drop_model},
     {"model_save_json", "ifsm_model_save", 1, 1,
      [](World& world, std::uint64_t*) { return save(world, IFSM_FORMAT_JSON); }, drop_nothing},
     {"model_save_cbor", "ifsm_model_save", 1, 1,
@@ -383,6 +439,10 @@ World make_world() {
   world.polygon = {0, 0, 50, 30, 128, 5};
   EXPECT_EQ(ifsm_filter_named("casteljau", IFSM_TOPOLOGY_JOINED, 3, 2, &world.filter), IFSM_OK);
   EXPECT_EQ(ifsm_model_create(world.filter, &world.curve, nullptr, &world.model), IFSM_OK);
+  EXPECT_EQ(ifsm_deformer_create(world.model, nullptr, &world.deformer), IFSM_OK);
+  const std::int64_t handle = 2;
+  const double by[] = {3, 5};
+  EXPECT_EQ(ifsm_deformer_move(world.deformer, 2, &handle, 1, by, 2, nullptr), IFSM_OK);
   EXPECT_EQ(fit_small(world, &world.fit.id), IFSM_OK);
   EXPECT_EQ(fit_curve_small(world, &world.curve_fit.id), IFSM_OK);
   world.matrix = read<double>([&](double* to, std::int64_t room, std::int64_t* count) {
@@ -511,6 +571,7 @@ TEST_P(OutOfMemory, IsAnErrorAndNothingElse) {
   EXPECT_LE(tally.leaked, through_ceres ? 3 * rounds : 0);
   EXPECT_EQ(ifsm_fit_destroy(world.fit), IFSM_OK);
   EXPECT_EQ(ifsm_fit_destroy(world.curve_fit), IFSM_OK);
+  EXPECT_EQ(ifsm_deformer_destroy(world.deformer), IFSM_OK);
   EXPECT_EQ(ifsm_model_destroy(world.model), IFSM_OK);
   EXPECT_EQ(ifsm_filter_destroy(world.filter), IFSM_OK);
 }

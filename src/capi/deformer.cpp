@@ -1,0 +1,254 @@
+// Deformers: the one mutable kind.
+#include "deform/deformer.h"
+
+#include <ifsm.h>
+
+#include <cstring>
+
+#include "capi/arguments.h"
+#include "capi/curves.h"
+#include "capi/deforming.h"
+#include "capi/guarded.h"
+#include "capi/nouns.h"
+#include "curve/model.h"
+
+namespace ifsm::core {
+namespace {
+
+// A deformer for one call: other calls are refused until it ends.
+class Held {
+ public:
+  explicit Held(ifsm_deformer handle) : shared_(borrow(handle)) {
+    if (!shared_->busy.test_and_set(std::memory_order_acquire)) return;
+    throw Error(
+        Status::busy, "deformer",
+        "Another call is using this deformer; wait until it has ended, or give each thread a deformer of its own.");
+  }
+  ~Held() { shared_->busy.clear(std::memory_order_release); }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+
+  Deformer* operator->() const { return &shared_->deformer; }
+
+ private:
+  std::shared_ptr<Deforming> shared_;
+};
+
+std::vector<Index> handles_of(const std::int64_t* handles, std::int64_t count) {
+  const auto given = input(handles, count, "handles", "handle_count");
+  return {given.begin(), given.end()};
+}
+
+// Points of the deformer's dimension; `count` doubles.
+Points vectors_of(const Deformer& deformer, const double* values, std::int64_t count, Index needed,
+                  const char* argument, const char* count_argument) {
+  const auto given = input(values, count, argument, count_argument);
+  require_count(given.count, checked_product(needed, deformer.model().dimension(), argument), count_argument);
+  require_finite(given.data, given.count, argument);
+  return Points::from_interleaved(given.data, needed, deformer.model().dimension());
+}
+
+std::string name_of(const char* name) {
+  constexpr std::size_t longest = 255;
+  const char* const given = &required(name, "name");
+  const std::size_t length = strnlen(given, longest + 1);
+  if (length == 0 || length > longest)
+    throw Error(Status::range, "name", "name must have 1 to 255 bytes; give the state a name to be found by.")
+        .with(static_cast<double>(length));
+  return {given, length};
+}
+
+Levels levels_of(std::int32_t first, std::int32_t last, std::int32_t fade) { return {first, last, fade}; }
+
+std::vector<double> parameters_of(const double* parameters, std::int64_t count) {
+  const auto given = input(parameters, count, "parameters", "parameter_count");
+  return {given.begin(), given.end()};
+}
+
+}  // namespace
+}  // namespace ifsm::core
+
+using namespace ifsm::core;
+
+ifsm_status ifsm_deformer_options_init(ifsm_deformer_options* options, uint32_t size) {
+  return guarded(__func__, [&] { init_options(options, size); });
+}
+
+ifsm_status ifsm_deformer_create(ifsm_model model_handle, const ifsm_deformer_options* given, ifsm_deformer* deformer) {
+  return guarded(__func__, [&] {
+    const auto model = borrow(model_handle);
+    const ifsm_deformer_options options = read_options(given);
+    const Manner manner{choice(options.turning, Turning::linear, "turning"),
+                        choice(options.follow, Follow::none, "follow")};
+    in_range(options.reserved, 0, 0, "reserved");
+    required(deformer, "deformer");
+    issue(std::make_shared<Deforming>(model, manner), *deformer);
+  });
+}
+
+ifsm_status ifsm_deformer_describe(ifsm_deformer handle, ifsm_deformer_info* info) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    const Model& model = deformer->model();
+    ifsm_deformer_info told{};
+    told.dimension = static_cast<int32_t>(model.dimension());
+    told.levels = model.levels();
+    told.closed = model.closed() ? 1 : 0;
+    told.undoable = deformer->undoable();
+    told.redoable = deformer->redoable();
+    told.edits = deformer->edits();
+    Report(info, "info").write(told);
+  });
+}
+
+ifsm_status ifsm_deformer_destroy(ifsm_deformer deformer) {
+  return guarded(__func__, [&] { destroy(deformer); });
+}
+
+ifsm_status ifsm_move_options_init(ifsm_move_options* options, uint32_t size) {
+  return guarded(__func__, [&] { init_options(options, size); });
+}
+
+ifsm_status ifsm_deformer_move(ifsm_deformer handle, int32_t level, const int64_t* handles, int64_t handle_count,
+                               const double* vectors, int64_t vector_count, const ifsm_move_options* given) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    const ifsm_move_options options = read_options(given);
+    Move edit;
+    edit.level = level;
+    edit.handles = handles_of(handles, handle_count);
+    edit.vectors = vectors_of(*deformer.operator->(), vectors, vector_count, handle_count, "vectors", "vector_count");
+    edit.places = in_range(options.places, 0, 1, "places") == 1;
+    edit.reach = choice(options.reach, Reach::curve, "reach");
+    edit.falloff = choice(options.falloff, Falloff::smooth, "falloff");
+    edit.ruler = choice(options.ruler, Ruler::length, "ruler");
+    in_range(options.reserved, 0, 0, "reserved");
+    require_finite(&options.radius, 1, "radius");
+    edit.radius = options.radius;
+    deformer->apply(edit);
+  });
+}
+
+ifsm_status ifsm_deformer_pin(ifsm_deformer handle, int32_t level, const int64_t* handles, int64_t handle_count,
+                              int32_t hold) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    deformer->apply(Pin{level, handles_of(handles, handle_count), in_range(hold, 0, 1, "hold") == 1});
+  });
+}
+
+ifsm_status ifsm_deformer_drag(ifsm_deformer handle, int32_t level, int32_t lead, const double* parameters,
+                               int64_t parameter_count, const double* places, int64_t place_count) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    Drag edit;
+    edit.level = level;
+    edit.lead = choice(lead, Lead::details, "lead");
+    edit.parameters = parameters_of(parameters, parameter_count);
+    edit.places = vectors_of(*deformer.operator->(), places, place_count, parameter_count, "places", "place_count");
+    deformer->apply(edit);
+  });
+}
+
+ifsm_status ifsm_restyle_options_init(ifsm_restyle_options* options, uint32_t size) {
+  return guarded(__func__, [&] { init_options(options, size); });
+}
+
+ifsm_status ifsm_deformer_restyle(ifsm_deformer handle, int32_t first, int32_t last, double scale,
+                                  const ifsm_restyle_options* given) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    const ifsm_restyle_options options = read_options(given);
+    in_range(options.mirror, 0, deformer->model().dimension(), "mirror");
+    in_range(options.reserved, 0, 0, "reserved");
+    deformer->apply(Restyle{levels_of(first, last, options.fade), scale, options.angle, options.mirror - 1});
+  });
+}
+
+ifsm_status ifsm_texture_options_init(ifsm_texture_options* options, uint32_t size) {
+  return guarded(__func__, [&] { init_options(options, size); });
+}
+
+ifsm_status ifsm_deformer_texture(ifsm_deformer handle, int32_t first, int32_t last,
+                                  const ifsm_texture_options* given) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    const ifsm_texture_options options = read_options(given);
+    require_finite(&options.size, 1, "size");
+    Texture edit{levels_of(first, last, options.fade), borrow_if_any(options.from, "from"), options.roughness,
+                 options.size, options.seed};
+    if (edit.roughness == 0) edit.roughness = 0.5;
+    deformer->apply(edit);
+  });
+}
+
+ifsm_status ifsm_deformer_undo(ifsm_deformer handle) {
+  return guarded(__func__, [&] { Held(handle)->undo(); });
+}
+
+ifsm_status ifsm_deformer_redo(ifsm_deformer handle) {
+  return guarded(__func__, [&] { Held(handle)->redo(); });
+}
+
+ifsm_status ifsm_deformer_keep_as(ifsm_deformer handle, const char* name) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    deformer->keep_as(name_of(name));
+  });
+}
+
+ifsm_status ifsm_deformer_go_to(ifsm_deformer handle, const char* name) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    deformer->go_to(name_of(name));
+  });
+}
+
+ifsm_status ifsm_deformer_points(ifsm_deformer handle, int32_t level, int64_t first, int64_t number, double* points,
+                                 int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    deformer->check_window(level, first, number);
+    deliver(number * deformer->model().dimension(), output(points, capacity, "points"), required(count, "count"),
+            [&] { return deformer->places(level, first, number); });
+  });
+}
+
+ifsm_status ifsm_deformer_changed(ifsm_deformer handle, int32_t level, int64_t* first, int64_t* number) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    required(first, "first");
+    required(number, "number");
+    const auto window = deformer->changed(level);
+    *first = window.first;
+    *number = window.count;
+  });
+}
+
+ifsm_status ifsm_deformer_samples(ifsm_deformer handle, double* points, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    const Model& model = deformer->model();
+    deliver(model.placement().samples() * model.dimension(), output(points, capacity, "points"),
+            required(count, "count"), [&] { return deformer->samples(); });
+  });
+}
+
+ifsm_status ifsm_deformer_evaluate(ifsm_deformer handle, const double* parameters, int64_t parameter_count,
+                                   double* points, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    const auto at = parameters_of(parameters, parameter_count);
+    deformer->check_parameters(at);
+    deliver(checked_product(parameter_count, deformer->model().dimension(), "parameter_count"),
+            output(points, capacity, "points"), required(count, "count"), [&] { return deformer->at(at); });
+  });
+}
+
+ifsm_status ifsm_deformer_snapshot(ifsm_deformer handle, ifsm_model* model) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    required(model, "model");
+    issue(deformer->snapshot(), *model);
+  });
+}
