@@ -90,8 +90,13 @@ double Sketchbook::judged(const Sketches& sketches) const {
 
 double Sketchbook::squared_at_samples(Job& job, const RowMatrix& matrix, const Choice& choice) {
   job.solver.factor(matrix, choice.kept, watch_);
-  const Points curve = job.placement.pick(job.solver.curve(choice.solution, watch_));
-  return (curve.matrix() - job.placement.pick(job.line).matrix()).squaredNorm();
+  const Points curve = job.solver.curve(choice.solution, watch_);
+  double sum = 0;
+  for (Index k = 0; k < job.placement.samples(); ++k) {
+    const Index place = job.placement.place(k);
+    sum += (curve.matrix().row(place) - job.line.matrix().row(place)).squaredNorm();
+  }
+  return sum;
 }
 
 bool Sketchbook::is_anywhere_worse(const Sketches& sketches, const Sketches& others, double part) {
