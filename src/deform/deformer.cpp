@@ -58,9 +58,14 @@ Deformer::Deformer(ModelPtr model, Manner manner) : model_(std::move(model)), ma
   history_.push_back(std::make_shared<const State>(std::move(start)));
 }
 
+Deformer::Logged::~Logged() {
+  for (auto last = std::move(before); last && last.use_count() == 1;) last = std::exchange(last->before, nullptr);
+}
+
 void Deformer::step_to(State next) {
   auto made = std::make_shared<const State>(std::move(next));
-  history_.reserve(static_cast<std::size_t>(now_) + 2);
+  const auto needed = static_cast<std::size_t>(now_) + 2;
+  if (history_.capacity() < needed) history_.reserve(2 * needed);  // before what was undone is forgotten: it may fail
   history_.resize(static_cast<std::size_t>(now_) + 1);
   history_.push_back(std::move(made));
   ++now_;
@@ -71,7 +76,7 @@ void Deformer::apply(const Edit& edit) {
   State next = state();
   next.touched = {};
   std::visit([&](const auto& one) { make(next, one); }, edit);
-  next.log = std::make_shared<const Logged>(Logged{edit, state().log});
+  next.log = std::make_shared<Logged>(edit, state().log);
   step_to(std::move(next));
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "deform/edit.h"
@@ -64,15 +65,21 @@ class Deformer {
     int level = 0;
     Index first = 0, last = 0;
   };
+  // A list from the last edit back, shared by states.
   struct Logged {
+    Logged(Edit made, std::shared_ptr<Logged> after) : edit(std::move(made)), before(std::move(after)) {}
+    Logged(const Logged&) = delete;
+    Logged& operator=(const Logged&) = delete;
+    ~Logged();  // one after the other: a long list would overflow the stack
+
     Edit edit;
-    std::shared_ptr<const Logged> before;
+    std::shared_ptr<Logged> before;
   };
   struct State {
     Pose pose;
     Look look;
     BasePtr base;
-    std::shared_ptr<const Logged> log;
+    std::shared_ptr<Logged> log;
     Touched touched;  // by the step that led here
   };
   using StatePtr = std::shared_ptr<const State>;

@@ -149,6 +149,15 @@ TEST(Deformer, UndoesRedoesAndReplaysToTheBit) {
   }
 }
 
+TEST(Deformer, TakesVeryManyEdits) {
+  Random random(18);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 2, 2)), false, 1}, random, 5);
+  Deformer deformer(model);
+  for (int k = 0; k < 60'000; ++k) deformer.apply(Pin{1, {}, true});
+  EXPECT_EQ(deformer.edits(), 60'000);
+  EXPECT_EQ(deformer.samples(), samples(*model));
+}
+
 TEST(Deformer, ChangesNothingOutsideTheWindowThatItTells) {
   Random random(3);
   int narrow = 0;
