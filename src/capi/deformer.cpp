@@ -10,7 +10,7 @@
 #include "capi/deforming.h"
 #include "capi/guarded.h"
 #include "capi/nouns.h"
-#include "curve/model.h"
+#include "curve/evaluate.h"
 
 namespace ifsm::core {
 namespace {
@@ -28,6 +28,7 @@ class Held {
   Held(const Held&) = delete;
   Held& operator=(const Held&) = delete;
 
+  Deformer& operator*() const { return shared_->deformer; }
   Deformer* operator->() const { return &shared_->deformer; }
 
  private:
@@ -57,8 +58,6 @@ std::string name_of(const char* name) {
         .with(static_cast<double>(length));
   return {given, length};
 }
-
-Levels levels_of(std::int32_t first, std::int32_t last, std::int32_t fade) { return {first, last, fade}; }
 
 std::vector<double> parameters_of(const double* parameters, std::int64_t count) {
   const auto given = input(parameters, count, "parameters", "parameter_count");
@@ -117,7 +116,7 @@ ifsm_status ifsm_deformer_move(ifsm_deformer handle, int32_t level, const int64_
     Move edit;
     edit.level = level;
     edit.handles = handles_of(handles, handle_count);
-    edit.vectors = vectors_of(*deformer.operator->(), vectors, vector_count, handle_count, "vectors", "vector_count");
+    edit.vectors = vectors_of(*deformer, vectors, vector_count, handle_count, "vectors", "vector_count");
     edit.places = in_range(options.places, 0, 1, "places") == 1;
     edit.reach = choice(options.reach, Reach::curve, "reach");
     edit.falloff = choice(options.falloff, Falloff::smooth, "falloff");
@@ -145,7 +144,7 @@ ifsm_status ifsm_deformer_drag(ifsm_deformer handle, int32_t level, int32_t lead
     edit.level = level;
     edit.lead = choice(lead, Lead::details, "lead");
     edit.parameters = parameters_of(parameters, parameter_count);
-    edit.places = vectors_of(*deformer.operator->(), places, place_count, parameter_count, "places", "place_count");
+    edit.places = vectors_of(*deformer, places, place_count, parameter_count, "places", "place_count");
     deformer->apply(edit);
   });
 }
@@ -161,7 +160,7 @@ ifsm_status ifsm_deformer_restyle(ifsm_deformer handle, int32_t first, int32_t l
     const ifsm_restyle_options options = read_options(given);
     in_range(options.mirror, 0, deformer->model().dimension(), "mirror");
     in_range(options.reserved, 0, 0, "reserved");
-    deformer->apply(Restyle{levels_of(first, last, options.fade), scale, options.angle, options.mirror - 1});
+    deformer->apply(Restyle{{first, last, options.fade}, scale, options.angle, options.mirror - 1});
   });
 }
 
@@ -175,8 +174,11 @@ ifsm_status ifsm_deformer_texture(ifsm_deformer handle, int32_t first, int32_t l
     const Held deformer(handle);
     const ifsm_texture_options options = read_options(given);
     require_finite(&options.size, 1, "size");
-    Texture edit{levels_of(first, last, options.fade), borrow_if_any(options.from, "from"), options.roughness,
-                 options.size, options.seed};
+    Texture edit{{first, last, options.fade},
+                 borrow_if_any(options.from, "from"),
+                 options.roughness,
+                 options.size,
+                 options.seed};
     if (edit.roughness == 0) edit.roughness = 0.5;
     deformer->apply(edit);
   });
@@ -239,7 +241,7 @@ ifsm_status ifsm_deformer_evaluate(ifsm_deformer handle, const double* parameter
   return guarded(__func__, [&] {
     const Held deformer(handle);
     const auto at = parameters_of(parameters, parameter_count);
-    deformer->check_parameters(at);
+    require_parameters(deformer->model(), at);
     deliver(checked_product(parameter_count, deformer->model().dimension(), "parameter_count"),
             output(points, capacity, "points"), required(count, "count"), [&] { return deformer->at(at); });
   });

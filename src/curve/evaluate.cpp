@@ -10,18 +10,6 @@ namespace {
 
 constexpr double epsilon = 2.220446049250313e-16;
 
-void require_parameters(const Model& model, std::span<const double> parameters) {
-  require_finite(parameters.data(), static_cast<Index>(parameters.size()), "parameters");
-  if (model.closed()) return;
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    if (!(parameters[i] >= 0 && parameters[i] <= 1))
-      throw Error(
-          Status::range, "parameters",
-          "parameters[" + std::to_string(i) + "] is " + text_of(parameters[i]) + "; an open curve's run from 0 to 1.")
-          .at(static_cast<Index>(i))
-          .with(parameters[i]);
-}
-
 // The polygon of child i of a node, rows summed in the order of the fast transform.
 Eigen::MatrixXd child_polygon(const Filter& filter, const Eigen::MatrixXd& polygon, const Eigen::MatrixXd& details,
                               int child) {
@@ -173,6 +161,18 @@ Eigen::RowVectorXd polyline_point(const Model& model, const Places& places, doub
 }
 
 }  // namespace
+
+void require_parameters(const Model& model, std::span<const double> parameters) {
+  require_finite(parameters.data(), static_cast<Index>(parameters.size()), "parameters");
+  if (model.closed()) return;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    if (!(parameters[i] >= 0 && parameters[i] <= 1))
+      throw Error(
+          Status::range, "parameters",
+          "parameters[" + std::to_string(i) + "] is " + text_of(parameters[i]) + "; an open curve's run from 0 to 1.")
+          .at(static_cast<Index>(i))
+          .with(parameters[i]);
+}
 
 Points evaluate(const Model& model, Curve curve, std::span<const double> parameters) {
   require_parameters(model, parameters);

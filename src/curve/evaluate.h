@@ -10,6 +10,9 @@ namespace ifsm::core {
 
 enum class Curve : std::int32_t { polyline = 0, limit = 1 };
 
+// Finite; open curves': 0 … 1. Errors name "parameters" and the first that is wrong.
+void require_parameters(const Model& model, std::span<const double> parameters);
+
 // Points of the curve. Open: parameters 0 … 1, a range error names the first outside. Closed: any, modulo 1.
 Points evaluate(const Model& model, Curve curve, std::span<const double> parameters);
 

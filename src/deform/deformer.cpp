@@ -3,8 +3,10 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
+#include "curve/evaluate.h"
 #include "deform/falloff.h"
 #include "deform/handles.h"
 #include "deform/leash.h"
@@ -15,16 +17,17 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // F^-1 v, where the curve has not been drawn together so far that F has none.
-Vector untold(const SmallMatrix& frame, const Vector& seen, Index handle) {
+Vector untold(const SmallMatrix& frame, const Vector& seen, int level) {
   if (frame == SmallMatrix::Identity(frame.rows(), frame.cols())) return seen;
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(frame, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const auto& values = svd.singularValues();
   if (values(values.size() - 1) > 16 * epsilon * values(0)) return svd.solve(seen);
-  throw Error(Status::numerical, "handles",
-              "Above handle " + std::to_string(handle) +
-                  " the curve is drawn together into a point or flat; no move at this level can be told there. Draw it "
-                  "apart first, or move a coarser level.")
-      .at(handle);
+  throw Error(
+      Status::numerical, "level",
+      "level is " + std::to_string(level) +
+          "; above what is to be moved there the curve is drawn together into a point, or flat, so that no move "
+          "can be told. Draw it apart first, or move a coarser level.")
+      .with(level);
 }
 
 SmallMatrix restyled(const Restyle& edit, double weight, Index dimension) {
@@ -81,13 +84,14 @@ void Deformer::apply(const Edit& edit) {
 }
 
 void Deformer::undo() {
-  if (now_ == 0) throw Error(Status::range, "deformer", "There is no edit to undo.");
+  if (now_ == 0) throw Error(Status::range, "deformer", "There is no step to undo; ask how many there are first.");
   touched_ = state().touched;
   --now_;
 }
 
 void Deformer::redo() {
-  if (redoable() == 0) throw Error(Status::range, "deformer", "There is no undone edit to make again.");
+  if (redoable() == 0)
+    throw Error(Status::range, "deformer", "There is no undone step to make again; an edit forgets them.");
   ++now_;
   touched_ = state().touched;
 }
@@ -122,18 +126,18 @@ Index Deformer::handle_count(int level) const { return model_->shape().places(le
 
 void Deformer::check_handles(int level, const std::vector<Index>& handles) const {
   const Index count = handle_count(level);
-  std::vector<Index> sorted = handles;
-  std::ranges::sort(sorted);
-  for (std::size_t i = 0; i < handles.size(); ++i)
-    if (handles[i] < 0 || handles[i] >= count)
-      throw Error(Status::range, "handles",
-                  "handles[" + std::to_string(i) + "] is " + std::to_string(handles[i]) + "; level " +
-                      std::to_string(level) + " has handles 0 to " + std::to_string(count - 1) + ".")
-          .at(static_cast<Index>(i))
-          .with(static_cast<double>(handles[i]));
-  if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-    throw Error(Status::range, "handles", "Handle " + std::to_string(*twice) + " is named twice; move each once.")
-        .with(static_cast<double>(*twice));
+  std::set<Index> named;
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    const bool there = handles[i] >= 0 && handles[i] < count;
+    if (there && named.insert(handles[i]).second) continue;
+    throw Error(
+        Status::range, "handles",
+        "handles[" + std::to_string(i) + "] is " + std::to_string(handles[i]) +
+            (there ? ", for the second time; name each once."
+                   : "; level " + std::to_string(level) + " has handles 0 to " + std::to_string(count - 1) + "."))
+        .at(static_cast<Index>(i))
+        .with(static_cast<double>(handles[i]));
+  }
 }
 
 Deformer::Touched Deformer::nodes_of(int level, const std::vector<Index>& handles) const {
@@ -203,7 +207,7 @@ void Deformer::displace(State& next, const Posed& now, int level, Index handle, 
   Moves& all = next.pose.moves[static_cast<std::size_t>(level)];
   auto& moves = reach == Reach::curve ? all.field : all.own;
   const SmallMatrix frame = reach == Reach::curve ? now.whole() : now.frame(level, handle);
-  moves.try_emplace(handle, Vector::Zero(by.size())).first->second += untold(frame, by, handle);
+  moves.try_emplace(handle, Vector::Zero(by.size())).first->second += untold(frame, by, level);
 }
 
 void Deformer::require_vectors(const Points& vectors, Index count, const char* argument) const {
@@ -248,23 +252,12 @@ void Deformer::make(State& next, const Pin& edit) const {
   next.touched = nodes_of(edit.level, edit.handles);
 }
 
-void Deformer::check_parameters(const std::vector<double>& parameters) const {
-  const auto count = static_cast<Index>(parameters.size());
-  require_finite(parameters.data(), count, "parameters");
-  for (Index k = 0; k < count && !model_->closed(); ++k)
-    if (const double t = parameters[static_cast<std::size_t>(k)]; t < 0 || t > 1)
-      throw Error(Status::range, "parameters",
-                  "parameters[" + std::to_string(k) + "] is " + text_of(t) + "; an open curve has parameters 0 to 1.")
-          .at(k)
-          .with(t);
-}
-
 void Deformer::check_drag(const Drag& edit) const {
   if (!model_->shape().joined())
     throw Error(Status::shape, "deformer",
                 "The model is square: its places are means of several polygons. Move its handles instead.");
   checked_level(edit.level, edit.lead == Lead::details ? model_->levels() - 1 : model_->levels());
-  check_parameters(edit.parameters);
+  require_parameters(*model_, edit.parameters);
   require_vectors(edit.places, static_cast<Index>(edit.parameters.size()), "places");
 }
 
@@ -297,12 +290,13 @@ void Deformer::lead(State& next, const Posed& before, const Drag& edit, Index va
   if (edit.lead == Lead::handles) return displace(next, before, edit.level, value, by, Reach::nodes);
   auto& details = next.pose.moves[static_cast<std::size_t>(edit.level)].details;
   const SmallMatrix turn = before.turn_at(edit.level, value / model_->shape().details_per_node());
-  details.try_emplace(value, Vector::Zero(by.size())).first->second += untold(turn, by, value);
+  details.try_emplace(value, Vector::Zero(by.size())).first->second += untold(turn, by, edit.level);
 }
 
 void Deformer::check_levels(const Levels& levels) const {
   if (model_->levels() == 0)
-    throw Error(Status::range, "first", "The model has no levels, hence no details to look otherwise.");
+    throw Error(Status::range, "first",
+                "The model has no levels, hence no details to look otherwise; make it with more levels.");
   in_range(levels.first, 0, model_->levels() - 1, "first");
   in_range(levels.last, levels.first, model_->levels() - 1, "last");
   in_range(levels.fade, 0, 64, "fade");
@@ -319,7 +313,8 @@ void Deformer::make(State& next, const Restyle& edit) const {
   require_finite(&edit.angle, 1, "angle");
   in_range(edit.mirror, -1, model_->dimension() - 1, "mirror");
   if (edit.angle != 0 && model_->dimension() == 1)
-    throw Error(Status::range, "angle", "The curve has one dimension: there is nothing to turn in.").with(edit.angle);
+    throw Error(Status::range, "angle", "The curve has one dimension, and nothing to turn in: leave the angle at 0.")
+        .with(edit.angle);
   for (int level = 0; level < model_->levels(); ++level)
     if (const double weight = edit.levels.weight(level); weight > 0) {
       SmallMatrix& map = next.look[static_cast<std::size_t>(level)].map;
@@ -354,13 +349,14 @@ void Deformer::make(State& next, const Texture& edit) const {
     const PointsPtr fresh =
         edit.from ? borrowed_texture(*model_, level, *edit.from) : random_texture(*model_, level, shrunk, edit.seed);
     auto& look = next.look[static_cast<std::size_t>(level)];
-    if (weight == 1) {
-      look.details = fresh;
-      continue;
+    PointsPtr details = fresh;
+    if (weight < 1) {
+      auto blend = std::make_shared<Points>(look.details ? *look.details : model_->details(level));
+      blend->matrix() = (blend->matrix() * look.map.transpose()).eval();
+      blend->matrix() += weight * (fresh->matrix() - blend->matrix());
+      details = std::move(blend);
     }
-    auto blend = std::make_shared<Points>(look.details ? *look.details : model_->details(level));
-    blend->matrix() += weight * (fresh->matrix() - blend->matrix());
-    look.details = std::move(blend);
+    look = {SmallMatrix::Identity(model_->dimension(), model_->dimension()), std::move(details)};  // as they are told
   }
   next.base = std::make_shared<Base>(dressed(*model_, next.look));
 }

@@ -45,7 +45,6 @@ class Deformer {
   // Places of a level, in the samples' coordinates: those that the last step may have changed are changed(level).
   Points places(int level, Index first, Index count) const;
   void check_window(int level, Index first, Index number) const;  // what places() refuses: "level", "first", "number"
-  void check_parameters(const std::vector<double>& parameters) const;
   // Points of the finest polyline. Open: parameters 0 … 1; closed: any, modulo 1.
   Points at(const std::vector<double>& parameters) const;
   Index count(int level) const;

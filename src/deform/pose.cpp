@@ -288,6 +288,11 @@ void Posed::write(const Node& node, int level, Index first, Points& out) const {
       if (lo < hi) std::copy_n(base.plane(axis).data() + lo, hi - lo, at(axis, lo));
     return;
   }
+  if (node.level == level) {  // pins and moved handles, to the bit
+    for (Index value = std::max(begin, first); value < std::min(end, out_end); ++value)
+      for (Index axis = 0; axis < dimension(); ++axis) *at(axis, value) = node.polygon(value - begin, axis);
+    return;
+  }
   const Spread spread(base_.model()->filter());
   Points off = as_points(node.off);
   const auto combine = [&](const Points& offset, Index offset_begin, Index lo, Index hi) {

@@ -3,35 +3,13 @@
 #include <algorithm>
 #include <numbers>
 
-#include "../curve/support.h"
 #include "deform/handles.h"
+#include "support.h"
 
 using namespace ifsm::core;
 using namespace ifsm::core::testing;
 
 namespace {
-
-struct Subject {
-  FilterPtr filter;
-  bool closed;
-  Index dimension;
-};
-
-std::vector<Subject> subjects(Random& random) {
-  std::vector<Subject> all;
-  for (const bool closed : {false, true})
-    for (const auto& [topology, n, maps, stride] : {std::tuple{Topology::joined, 2, 2, 0},
-                                                    {Topology::joined, 5, 2, 0},
-                                                    {Topology::joined, 3, 3, 0},
-                                                    {Topology::square, 4, 2, 2}})
-      for (const Index dimension : {1, 2, 3})
-        all.push_back({random_filter(Shape(topology, n, maps, stride), random, 0.05), closed, dimension});
-  return all;
-}
-
-ModelPtr rough(const Subject& s, Random& random, Index samples = 90) {
-  return analyze(s.filter, random_curve(random, samples, s.dimension, Kind::walk), s.closed);
-}
 
 std::string name(const Model& m) {
   std::ostringstream out;
@@ -456,6 +434,10 @@ TEST(Deformer, MakesTextureOfTheRoughnessAsked) {
     EXPECT_NEAR(size / wanted, 1, spread) << level;
   }
   EXPECT_EQ(made->details(2), model->details(2));
+  Deformer bare(model);  // new details are as they are told, whatever became of the old ones
+  bare.apply(Restyle{{3, model->levels() - 1, 0}, 0, 0, -1});
+  bare.apply(Texture{{3, model->levels() - 1, 0}, nullptr, 0.8, 0.25, 42});
+  EXPECT_EQ(all(bare), all(deformer));
   Deformer again(model), other(model);
   again.apply(Texture{{3, model->levels() - 1, 0}, nullptr, 0.8, 0.25, 42});
   EXPECT_EQ(all(again), all(deformer));

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "../curve/support.h"
 #include "deform/handles.h"
+#include "support.h"
 
 using namespace ifsm::core;
 using namespace ifsm::core::testing;
@@ -12,36 +12,6 @@ using namespace ifsm::core::testing;
 namespace {
 
 constexpr Turning all_turnings[] = {Turning::similarity, Turning::rotation, Turning::linear};
-
-struct Subject {
-  FilterPtr filter;
-  bool closed;
-  Index dimension;
-};
-
-std::vector<Subject> subjects(Random& random) {
-  std::vector<Subject> all;
-  for (const bool closed : {false, true})
-    for (const auto& [topology, n, maps, stride] : {std::tuple{Topology::joined, 2, 2, 0},
-                                                    {Topology::joined, 3, 3, 0},
-                                                    {Topology::joined, 5, 2, 0},
-                                                    {Topology::square, 3, 2, 2},
-                                                    {Topology::square, 4, 2, 1},
-                                                    {Topology::square, 4, 3, 4}})
-      for (const Index dimension : {1, 2, 3, 4})
-        all.push_back({random_filter(Shape(topology, n, maps, stride), random, 0.05), closed, dimension});
-  return all;
-}
-
-std::string name(const Model& m) {
-  std::ostringstream out;
-  out << m.shape() << (m.closed() ? " closed" : " open") << " d=" << m.dimension() << " levels=" << m.levels();
-  return out.str();
-}
-
-ModelPtr rough(const Subject& s, Random& random, Index samples = 70) {
-  return analyze(s.filter, random_curve(random, samples, s.dimension, Kind::walk), s.closed);
-}
 
 Pose still(const Model& model) {
   return {model.parts().polygon, std::vector<Moves>(static_cast<std::size_t>(model.levels()) + 1)};

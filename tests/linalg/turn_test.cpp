@@ -63,6 +63,21 @@ TEST(LeastRotation, IsTheIdentityBitForBitWhenThePolygonStays) {
     }
 }
 
+TEST(Turn, OfTheLinearKindIsTheMapWherePointsSpanAndTheSimilarityElsewhere) {
+  Random random(21);
+  for (Eigen::Index d = 1; d <= 4; ++d) {
+    const MatrixXd polygon = random_matrix(random, 7, d), map = random_matrix(random, d, d);
+    const MatrixXd to = (polygon * map.transpose()).rowwise() + random_matrix(random, 1, d).row(0);
+    EXPECT_LE((MatrixXd(turn(polygon, to, Turning::linear)) - map).norm(), 1e-12 * (1 + map.norm()));  // cond < 100
+    EXPECT_EQ(MatrixXd(turn(polygon, to, Turning::rotation)), MatrixXd(least_rotation(polygon, to)));
+    EXPECT_EQ(MatrixXd(turn(polygon, to, Turning::similarity)), MatrixXd(turn(polygon, to)));
+    MatrixXd flat = polygon;
+    flat.rightCols(d - 1).setZero();  // along the first axis, and three times as long
+    EXPECT_LE((MatrixXd(turn(flat, 3 * flat, Turning::linear)) - 3 * MatrixXd::Identity(d, d)).norm(), 1e-13);
+    EXPECT_EQ(MatrixXd(turn(flat, flat, Turning::linear)), MatrixXd::Identity(d, d));
+  }
+}
+
 TEST(LeastRotation, IsUmeyamasWherePointsDetermineIt) {
   Random random(2);
   std::uniform_real_distribution<double> noise(0, 0.3);
