@@ -16,3 +16,10 @@ function(ifsm_layer name)
   target_link_libraries(ifsm_${name} PUBLIC ${LAYER_USES} PRIVATE ${LAYER_PRIVATE_USES})
   set_property(GLOBAL APPEND PROPERTY IFSM_LAYERS ifsm_${name})
 endfunction()
+
+# ifsm_watch_alignment(<target>): under the undefined-behaviour sanitizer, the checks that other files go without.
+function(ifsm_watch_alignment target)
+  if(IFSM_SANITIZE MATCHES undefined)
+    target_compile_options(${target} PRIVATE -fsanitize=null,alignment)
+  endif()
+endfunction()

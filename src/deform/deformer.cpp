@@ -1,6 +1,5 @@
 #include "deform/deformer.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -10,6 +9,7 @@
 #include "deform/falloff.h"
 #include "deform/handles.h"
 #include "deform/leash.h"
+#include "linalg/spectrum.h"
 
 namespace ifsm::core {
 namespace {
@@ -19,9 +19,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // F^-1 v, where the curve has not been drawn together so far that F has none.
 Vector untold(const SmallMatrix& frame, const Vector& seen, int level) {
   if (frame == SmallMatrix::Identity(frame.rows(), frame.cols())) return seen;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(frame, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const auto& values = svd.singularValues();
-  if (values(values.size() - 1) > 16 * epsilon * values(0)) return svd.solve(seen);
+  if (condition_number(frame) < 1 / (16 * epsilon)) return inverse(frame) * seen;
   throw Error(
       Status::numerical, "level",
       "level is " + std::to_string(level) +

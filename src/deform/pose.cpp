@@ -1,6 +1,5 @@
 #include "deform/pose.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "curve/kernel.h"
 #include "curve/transform.h"
 #include "deform/handles.h"
+#include "linalg/spectrum.h"
 
 namespace ifsm::core {
 namespace {
@@ -188,8 +188,8 @@ void Posed::find_whole_turns() {
 SmallMatrix Posed::whole_turn(int level, const SmallMatrix& handed) const {
   const SmallMatrix& before = whole_turns_[static_cast<std::size_t>(level) - 1];
   const SmallMatrix& now = whole_turns_[static_cast<std::size_t>(level)];
-  if (handed == before || !(std::abs(before.determinant()) > 0)) return now;
-  return now * before.inverse() * handed;
+  if (handed == before || !(std::abs(determinant(before)) > 0)) return now;
+  return now * inverse(before) * handed;
 }
 
 void Posed::move(Node& node, const std::vector<SmallMatrix>& path) const {

@@ -9,25 +9,30 @@
 namespace ifsm::core {
 namespace {
 
-Eigen::VectorXd singular_values(const Eigen::MatrixXd& square) {
-  return Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>(square).singularValues();
-}
+using Jacobi = Eigen::JacobiSVD<Eigen::MatrixXd>;
 
 }  // namespace
 
+SingularValues svd(const MatrixView& matrix) {
+  const Jacobi parts(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {parts.matrixU(), parts.singularValues(), parts.matrixV()};
+}
+
 double condition_number(const MatrixView& matrix) {
-  const Eigen::VectorXd values = singular_values(matrix);
+  const Eigen::VectorXd values = Jacobi(matrix).singularValues();
   const double least = values(values.size() - 1);
   return least > 0 ? values(0) / least : std::numeric_limits<double>::infinity();
 }
 
-double norm(const MatrixView& matrix) { return singular_values(matrix)(0); }
+double norm(const MatrixView& matrix) { return Jacobi(matrix).singularValues()(0); }
 
 double spectral_radius(const MatrixView& matrix) {
   return Eigen::EigenSolver<Eigen::MatrixXd>(matrix, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
 Eigen::MatrixXd inverse(const MatrixView& matrix) { return Eigen::PartialPivLU<Eigen::MatrixXd>(matrix).inverse(); }
+
+double determinant(const MatrixView& matrix) { return Eigen::PartialPivLU<Eigen::MatrixXd>(matrix).determinant(); }
 
 Eigen::MatrixXd known_inverse(const MatrixView& matrix, const Eigen::VectorXd& full) {
   const Eigen::Index size = matrix.rows();
@@ -62,6 +67,10 @@ Eigen::MatrixXd cholesky(const MatrixView& matrix) {
 
 Eigen::VectorXd symmetric_eigenvalues(const MatrixView& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+Eigen::MatrixXd symmetric_eigenvectors(const MatrixView& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvectors();
 }
 
 }  // namespace ifsm::core

@@ -1,7 +1,8 @@
 #include "linalg/turn.h"
 
-#include <Eigen/Dense>
 #include <cmath>
+
+#include "linalg/spectrum.h"
 
 namespace ifsm::core {
 namespace {
@@ -9,6 +10,8 @@ namespace {
 constexpr double epsilon = 2.220446049250313e-16;
 
 using Small = SmallMatrix;
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
 using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 4>;
 
 // A polygon from its mean, in units of its largest difference. Differences from the first point come first: they are
@@ -39,33 +42,28 @@ class Centred {
 
 // The nearest rotation, full rank or one less. When it mirrors, the least of the singular directions is turned over;
 // where several are least, the one that lets the others turn least: I - 2 w w^T, w^T V^T U w smallest.
-Small nearest_rotation(const Small& u, const Small& v, const Row& values, double rounding) {
-  const Small whole = u * v.transpose();
-  if (whole.determinant() > 0) return whole;
+Small nearest_rotation(const SingularValues& m, double rounding) {
+  const Matrix whole = m.u * m.v.transpose();
+  if (determinant(whole) > 0) return whole;
+  const auto last = m.values.size() - 1;
   Eigen::Index least = 1;
-  while (least < values.size() && values(values.size() - 1 - least) <= values(values.size() - 1) + rounding) ++least;
-  const Small cross = v.rightCols(least).transpose() * u.rightCols(least);
-  const Eigen::SelfAdjointEigenSolver<Small> eigen(cross + cross.transpose());
-  const auto w = eigen.eigenvectors().col(0);
-  return whole - 2 * (u.rightCols(least) * w) * (v.rightCols(least) * w).transpose();
+  while (least <= last && m.values(last - least) <= m.values(last) + rounding) ++least;
+  const Matrix cross = m.v.rightCols(least).transpose() * m.u.rightCols(least);
+  const Vector w = symmetric_eigenvectors(cross + cross.transpose()).col(0);
+  return whole - 2 * (m.u.rightCols(least) * w) * (m.v.rightCols(least) * w).transpose();
 }
 
 // Of all rotations that take range V_r to range U_r as told, the one of largest trace: the free blocks are joined by
 // the nearest rotation to what the identity asks for there.
-Small complete(const Small& u, const Small& v, Eigen::Index rank) {
-  const auto free = u.rows() - rank;
-  const Small q = u.leftCols(rank) * v.leftCols(rank).transpose();
-  const Small wanted = u.rightCols(free).transpose() * v.rightCols(free);
-  const Eigen::JacobiSVD<Small, Eigen::NoQRPreconditioner> svd(wanted, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Small middle = svd.matrixU() * svd.matrixV().transpose();
-  Small whole = q + u.rightCols(free) * middle * v.rightCols(free).transpose();
-  if (whole.determinant() < 0) {
-    Small flip = Small::Identity(free, free);
-    flip(free - 1, free - 1) = -1;
-    middle = svd.matrixU() * flip * svd.matrixV().transpose();
-    whole = q + u.rightCols(free) * middle * v.rightCols(free).transpose();
-  }
-  return whole;
+Small complete(const SingularValues& m, Eigen::Index rank) {
+  const auto free = m.u.rows() - rank;
+  const Matrix told = m.u.leftCols(rank) * m.v.leftCols(rank).transpose();
+  SingularValues wanted = svd(m.u.rightCols(free).transpose() * m.v.rightCols(free));
+  const auto whole = [&]() -> Matrix {
+    return told + m.u.rightCols(free) * (wanted.u * wanted.v.transpose()) * m.v.rightCols(free).transpose();
+  };
+  if (determinant(whole()) < 0) wanted.u.col(free - 1) *= -1;
+  return whole();
 }
 
 // P'^T pinv(P^T) over centred points, V_r V_r^T being the projector onto what P spans.
@@ -73,19 +71,17 @@ Small linear(const PolygonView& from, const PolygonView& to, const Small& simila
   const Centred before(from), after(to);
   if (before.is_point()) return similarity;
   const auto d = from.cols();
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, Eigen::Dynamic, 4> p(from.rows(), d);
-  auto target = p;
-  target.setZero();
+  Matrix p(from.rows(), d), target = Matrix::Zero(from.rows(), d);
   for (Eigen::Index j = 0; j < from.rows(); ++j) {
     p.row(j) = before.point(j);
     if (!after.is_point()) target.row(j) = after.point(j) * (after.unit() / before.unit());
   }
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(p, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const SingularValues parts = svd(p);
   const double rounding = static_cast<double>(from.rows()) * (before.noise() + epsilon);
   Small result = similarity;
-  for (Eigen::Index r = 0; r < svd.singularValues().size() && svd.singularValues()(r) > rounding; ++r) {
-    const Eigen::VectorXd v = svd.matrixV().col(r);
-    const Eigen::VectorXd image = target.transpose() * svd.matrixU().col(r) / svd.singularValues()(r);
+  for (Eigen::Index r = 0; r < parts.values.size() && parts.values(r) > rounding; ++r) {
+    const Vector v = parts.v.col(r);
+    const Vector image = target.transpose() * parts.u.col(r) / parts.values(r);
     result += (image - similarity * v) * v.transpose();
   }
   return result;
@@ -117,12 +113,10 @@ SmallMatrix least_rotation(const PolygonView& from, const PolygonView& to) {
     if (h > rounding) q << c / h, -s / h, s / h, c / h;
     return q;
   }
-  const Eigen::JacobiSVD<Small, Eigen::NoQRPreconditioner> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Row values = svd.singularValues().transpose();
+  const SingularValues parts = svd(m);
   Eigen::Index rank = 0;
-  while (rank < d && values(rank) > rounding) ++rank;
-  if (rank >= d - 1) return nearest_rotation(svd.matrixU(), svd.matrixV(), values, rounding);
-  return complete(svd.matrixU(), svd.matrixV(), rank);
+  while (rank < d && parts.values(rank) > rounding) ++rank;
+  return rank >= d - 1 ? nearest_rotation(parts, rounding) : complete(parts, rank);
 }
 
 SmallMatrix turn(const PolygonView& from, const PolygonView& to) {

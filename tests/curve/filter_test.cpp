@@ -1,7 +1,9 @@
 #include "curve/filter.h"
 
+#include <Eigen/LU>
 #include <limits>
 
+#include "linalg/spectrum.h"
 #include "support.h"
 
 using namespace ifsm::core;
@@ -11,11 +13,6 @@ namespace {
 
 RowMatrix maps_of(const Shape& shape, Random& random) {
   return random_filter(shape, random)->matrix().topRows(shape.control_points());
-}
-
-double condition(const Matrix& m) {
-  const Eigen::VectorXd values = m.bdcSvd().singularValues();
-  return values(0) / values(values.size() - 1);
 }
 
 TEST(Complement, OfASquareFilterIsOrthogonalToTAndOneNumberTimesAnIsometry) {
@@ -28,7 +25,7 @@ TEST(Complement, OfASquareFilterIsOrthogonalToTAndOneNumberTimesAnIsometry) {
       const Index n = shape.control_points(), d = shape.details_per_node();
       ASSERT_EQ(RowMatrix(r.topRows(n)), t) << shape;
       const Matrix u = r.bottomRows(d);
-      const Eigen::VectorXd values = Matrix(t).bdcSvd().singularValues();
+      const Eigen::VectorXd values = svd(t).values;
       const double s2 = (u * u.transpose())(0, 0);
       // Householder's reflections of `rows` columns, twice.
       const double k = 32 * shape.rows() * epsilon;
@@ -46,7 +43,7 @@ TEST(Complement, OfASquareFilterAddsNothingToTheConditionOfT) {
     if (shape.joined()) continue;
     for (const bool perturbed : {false, true}) {
       const RowMatrix t = perturbed ? maps_of(shape, random) : casteljau_maps(shape);
-      const double of_t = condition(t), of_r = condition(with_complement(shape, t));
+      const double of_t = condition_number(t), of_r = condition_number(with_complement(shape, t));
       // The least singular value is known to eps times the largest.
       EXPECT_NEAR(of_r / of_t, 1.0, 64 * shape.rows() * epsilon * of_t) << shape << " " << of_t;
     }
@@ -91,14 +88,13 @@ TEST(Complement, MakesAnalysisLeastSquares) {
       if (n > 2) {
         const Eigen::RowVectorXd left = children - nearest(0) * t.row(0) - nearest(n - 1) * t.row(n - 1);
         const Matrix interior = t.block(1, 1, n - 2, rows - 2).transpose();
-        nearest.segment(1, n - 2) =
-            interior.colPivHouseholderQr().solve(left.segment(1, rows - 2).transpose()).transpose();
+        nearest.segment(1, n - 2) = least_squares(interior, left.segment(1, rows - 2).transpose()).transpose();
       }
     } else {
-      nearest = Matrix(t.transpose()).colPivHouseholderQr().solve(children.transpose()).transpose();
+      nearest = least_squares(t.transpose(), children.transpose()).transpose();
     }
     const double scale = nearest.norm() + children.norm();
-    EXPECT_LE((children * inverse.leftCols(n) - nearest).norm(), 64 * epsilon * condition(r) * scale) << shape;
+    EXPECT_LE((children * inverse.leftCols(n) - nearest).norm(), 64 * epsilon * condition_number(r) * scale) << shape;
   }
 }
 
@@ -128,7 +124,7 @@ TEST(Filter, InverseIsTheInverseWithExactJoints) {
     const double k = 8 * static_cast<double>(rows) * epsilon * filter->condition();
     EXPECT_LE((filter->inverse() * filter->matrix() - RowMatrix::Identity(rows, rows)).cwiseAbs().maxCoeff(), k)
         << shape;
-    EXPECT_NEAR(filter->condition() / condition(filter->matrix()), 1.0, k) << shape;
+    EXPECT_NEAR(filter->condition() / condition_number(filter->matrix()), 1.0, k) << shape;
     if (!shape.joined()) continue;
     EXPECT_EQ(filter->inverse().col(0), Eigen::VectorXd::Unit(rows, 0)) << shape;
     EXPECT_EQ(filter->inverse().col(shape.control_points() - 1), Eigen::VectorXd::Unit(rows, rows - 1)) << shape;

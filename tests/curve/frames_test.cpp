@@ -35,9 +35,7 @@ struct Similarity {
 };
 
 Similarity random_similarity(Random& random, Index d, bool rotation = true) {
-  Matrix q = Matrix::NullaryExpr(d, d, [&] { return normal(random); }).householderQr().householderQ();
-  if (q.determinant() < 0) q.col(0) *= -1;
-  if (!rotation) q.setIdentity();
+  const Matrix q = rotation ? random_rotation(random, d) : Matrix::Identity(d, d);
   return {std::exp(normal(random)), q, Eigen::RowVectorXd::NullaryExpr(d, [&] { return normal(random); })};
 }
 

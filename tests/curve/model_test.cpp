@@ -286,7 +286,8 @@ TEST(Model, UnderASimilarityIsThatSimilarityOfItsPolygonsAndDetails) {
     const Index d = uniform(random, 1, 4);
     const FilterPtr filter = casteljau(shape);
     const Points given = random_curve(random, uniform(random, 2, 200), d, Kind::walk);
-    Matrix q = Matrix::NullaryExpr(d, d, [&] { return normal(random); }).householderQr().householderQ();
+    Matrix q = random_rotation(random, d);
+    if (trial % 4 == 0) q.col(0) *= -1;
     const double s = std::exp(normal(random));
     const Eigen::RowVectorXd t = Eigen::RowVectorXd::NullaryExpr(d, [&] { return 10 * normal(random); });
     const auto moved = [&](const Matrix& m) { return Matrix((s * m * q.transpose()).rowwise() + t); };

@@ -64,8 +64,7 @@ Matrix dense(const Model& model, const Kept& kept) {
 
 double dense_error(const Model& model, const Points& given, const Kept& kept) {
   const Matrix a = dense(model, kept), b = wanted(model, given);
-  const Eigen::CompleteOrthogonalDecomposition<Matrix> solver(a);
-  return (a * solver.solve(b) - b).squaredNorm();
+  return (a * least_squares(a, b) - b).squaredNorm();
 }
 
 struct Subject {

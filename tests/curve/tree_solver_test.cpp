@@ -64,12 +64,12 @@ struct Problem {
   // Do the samples tell every value that is free?
   bool determined() const {
     const Matrix a = weighted_columns(kept);
-    return a.cols() <= a.rows() && a.colPivHouseholderQr().rank() == a.cols();
+    return a.cols() <= a.rows() && rank(a) == a.cols();
   }
 
   double dense_error(const Kept& chosen) const {
     const Matrix weighted = weighted_columns(chosen), wanted = weight.cwiseSqrt().asDiagonal() * Matrix(data.matrix());
-    return (weighted * Eigen::CompleteOrthogonalDecomposition<Matrix>(weighted).solve(wanted) - wanted).squaredNorm();
+    return (weighted * least_squares(weighted, wanted) - wanted).squaredNorm();
   }
 
   std::string name() const {

@@ -355,7 +355,7 @@ TEST(Deformer, DragsByTheLeastChange) {
       rows.col(h) = moved.at(at).matrix().col(0) - deformer.at(at).matrix().col(0);
     }
     const Matrix ways = 0.1 * vectors(random, 3, s.dimension).matrix();
-    const Matrix wanted = rows.completeOrthogonalDecomposition().solve(ways);
+    const Matrix wanted = least_squares(rows, ways);
     Points places = deformer.at(at);
     places.matrix() += ways;
     const Points before = deformer.places(level, 0, handles);

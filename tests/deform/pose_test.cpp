@@ -4,6 +4,7 @@
 #include <set>
 
 #include "deform/handles.h"
+#include "linalg/spectrum.h"
 #include "support.h"
 
 using namespace ifsm::core;
@@ -179,7 +180,7 @@ TEST(Posed, PutsHandlesWhereTheyAreMovedTo) {
       const Posed before(base, pose, {});
       const Points old = before.places(level, handle, 1);
       Pose moved = pose;
-      moved.moves[static_cast<std::size_t>(level)].own[handle] = before.frame(level, handle).inverse() * by;
+      moved.moves[static_cast<std::size_t>(level)].own[handle] = inverse(before.frame(level, handle)) * by;
       const Points now = Posed(base, moved, {}).places(level, handle, 1);
       EXPECT_LE((now.matrix().row(0) - old.matrix().row(0) - by.transpose()).cwiseAbs().maxCoeff(),
                 1e-12 * (1 + largest(old)))
@@ -302,11 +303,7 @@ TEST(Posed, FollowsMotionsOfTheWholeCurve) {
     const bool ring = s.closed && s.filter->shape().joined();
     if (s.filter->shape().control_points() - (ring ? 1 : 0) <= s.dimension) continue;
     const Base base(model);
-    const Matrix q = Eigen::HouseholderQR<Matrix>(Matrix::NullaryExpr(s.dimension, s.dimension, [&] {
-                       return normal(random);
-                     })).householderQ();
-    Matrix rotation = q;
-    if (rotation.determinant() < 0) rotation.col(0) *= -1;
+    const Matrix rotation = random_rotation(random, s.dimension);
     const Matrix any = Matrix::NullaryExpr(s.dimension, s.dimension, [&] { return normal(random); });
     const Vector shift = random_vector(random, s.dimension);
     for (const auto& [turning, map] : {std::pair<Turning, Matrix>{Turning::similarity, 1.7 * rotation},

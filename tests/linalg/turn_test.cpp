@@ -2,29 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <cmath>
-#include <random>
+
+#include "linalg/spectrum.h"
+#include "support.h"
 
 using namespace ifsm::core;
+using namespace ifsm::core::testing;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr double epsilon = 2.220446049250313e-16;
-using Random = std::mt19937_64;
-
-MatrixXd random_matrix(Random& random, Eigen::Index rows, Eigen::Index columns) {
-  std::normal_distribution<double> normal;
-  return MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
-}
-
-MatrixXd random_rotation(Random& random, Eigen::Index d) {
-  MatrixXd q = random_matrix(random, d, d).householderQr().householderQ();
-  if (q.determinant() < 0) q.col(0) *= -1;
-  return q;
-}
 
 // A point a row: p ↦ scale · rotation · p + shift.
 MatrixXd moved(const MatrixXd& polygon, double scale, const MatrixXd& rotation, const VectorXd& shift) {
@@ -40,7 +30,7 @@ void expect_rotation(const MatrixXd& q, const std::string& what) {
   ASSERT_TRUE(q.allFinite()) << what;
   const double off = (q.transpose() * q - MatrixXd::Identity(q.rows(), q.cols())).norm();
   EXPECT_LE(off, 64 * epsilon) << what;  // an SVD of 4 × 4 and two products
-  EXPECT_NEAR(q.determinant(), 1.0, 64 * epsilon) << what;
+  EXPECT_NEAR(determinant(q), 1.0, 64 * epsilon) << what;
 }
 
 MatrixXd axis_turn(Eigen::Index d, double angle, Eigen::Index i, Eigen::Index j) {
@@ -204,7 +194,7 @@ TEST(LeastRotation, OfPlanarPointsInFourDimensionsHasTheLargestTrace) {
     expect_rotation(q, "planar");
     EXPECT_LE((from * q.transpose() - to).norm(), 1e-13);
     // All others: q times a rotation that keeps `plane` fixed.
-    const MatrixXd frame = plane.householderQr().householderQ();
+    const MatrixXd frame = orthonormal(plane);
     for (int k = 1; k < 360; ++k) {
       const MatrixXd spin = frame * axis_turn(4, k * M_PI / 180, 2, 3) * frame.transpose();
       EXPECT_LE((q * spin).trace(), q.trace() + 1e-12) << k;
