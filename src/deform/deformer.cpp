@@ -44,10 +44,10 @@ SmallMatrix restyled(const Restyle& edit, double weight, Index dimension) {
 
 double Levels::weight(int level) const {
   const int away = std::max({0, first - level, level - last});
-  if (away == 0) return 1;
+  if (away == 0) return share;
   if (away > fade) return 0;
   const double t = static_cast<double>(away) / (fade + 1);
-  return (1 - t) * (1 - t) * (1 + 2 * t);
+  return share * (1 - t) * (1 - t) * (1 + 2 * t);
 }
 
 Deformer::Deformer(ModelPtr model, Manner manner) : model_(std::move(model)), manner_(manner) {
@@ -77,7 +77,7 @@ void Deformer::apply(const Edit& edit) {
   State next = state();
   next.touched = {};
   std::visit([&](const auto& one) { make(next, one); }, edit);
-  next.log = std::make_shared<Logged>(edit, state().log);
+  next.log = std::make_shared<Logged>(Timed{edit, span_}, state().log);
   step_to(std::move(next));
 }
 
@@ -105,8 +105,81 @@ void Deformer::go_to(const std::string& name) {
   step_to(std::move(next));
 }
 
-std::vector<Edit> Deformer::log() const {
-  std::vector<Edit> edits;
+void Deformer::time_by(const Span& span) {
+  require_span(span);
+  span_ = span;
+}
+
+Deformer Deformer::at_time(double time) const {
+  require_finite(&time, 1, "time");
+  Deformer frame = *this;  // states are shared
+  frame.history_.resize(1);
+  frame.now_ = 0;
+  frame.touched_ = {};
+  frame.named_.clear();
+  for (const Timed& made : log()) {
+    const double share = made.span.share(time);
+    frame.span_ = made.span;
+    if (share == 1) frame.apply(made.edit);
+    if (share > 0 && share < 1)
+      frame.apply(std::visit([&](const auto& edit) -> Edit { return frame.part(edit, share); }, made.edit));
+  }
+  frame.span_ = span_;
+  return frame;
+}
+
+Move Deformer::part(Move edit, double share) const {
+  if (std::exchange(edit.places, false)) {
+    const Posed now = posed();
+    for (Index i = 0; i < edit.vectors.count(); ++i) {
+      auto vector = edit.vectors.matrix().row(i);
+      vector =
+          way_to(vector.transpose(), now.places(edit.level, edit.handles[static_cast<std::size_t>(i)], 1)).transpose();
+    }
+  }
+  edit.vectors.matrix() *= share;
+  return edit;
+}
+
+Pin Deformer::part(const Pin& edit, double) const { return edit; }
+
+Drag Deformer::part(Drag edit, double share) const {
+  const Points now = at(edit.parameters);
+  edit.places.matrix() = (now.matrix() + share * (edit.places.matrix() - now.matrix())).eval();
+  return edit;
+}
+
+Restyle Deformer::part(Restyle edit, double share) const {
+  edit.levels.share *= share;
+  return edit;
+}
+
+Texture Deformer::part(Texture edit, double share) const {
+  edit.levels.share *= share;
+  return edit;
+}
+
+void Deformer::replay(const std::vector<Timed>& edits) {
+  Deformer after = *this;  // states are shared
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    const std::string entry = "edits[" + std::to_string(i) + "]";
+    after.span_ = edits[i].span;
+    try {
+      require_span(edits[i].span);
+      after.apply(edits[i].edit);
+    } catch (const Error& error) {
+      throw Error(error.status(), entry + "." + error.argument(), entry + ": " + error.what())
+          .at(error.index())
+          .with(error.value())
+          .needs(error.required());
+    }
+  }
+  after.span_ = span_;
+  *this = std::move(after);
+}
+
+std::vector<Timed> Deformer::log() const {
+  std::vector<Timed> edits;
   for (auto entry = state().log; entry; entry = entry->before) edits.push_back(entry->edit);
   std::ranges::reverse(edits);
   return edits;
@@ -298,6 +371,9 @@ void Deformer::check_levels(const Levels& levels) const {
   in_range(levels.first, 0, model_->levels() - 1, "first");
   in_range(levels.last, levels.first, model_->levels() - 1, "last");
   in_range(levels.fade, 0, 64, "fade");
+  if (!(levels.share >= 0 && levels.share <= 1))
+    throw Error(Status::range, "share", "share is " + text_of(levels.share) + "; give what is made, from 0 to 1.")
+        .with(levels.share);
 }
 
 void Deformer::make(State& next, const Restyle& edit) const {
@@ -322,6 +398,36 @@ void Deformer::make(State& next, const Restyle& edit) const {
 }
 
 void Deformer::make(State& next, const Texture& edit) const {
+  check_texture(edit);
+  for (int level = 0; level < model_->levels(); ++level) {
+    const PointsPtr fresh = texture(edit, level);
+    if (!fresh) continue;
+    const double weight = edit.levels.weight(level);
+    auto& look = next.look[static_cast<std::size_t>(level)];
+    PointsPtr details = fresh;
+    if (weight < 1) {
+      auto blend = std::make_shared<Points>(look.details ? *look.details : model_->details(level));
+      blend->matrix() = (blend->matrix() * look.map.transpose()).eval();
+      blend->matrix() += weight * (fresh->matrix() - blend->matrix());
+      details = std::move(blend);
+    }
+    look = {SmallMatrix::Identity(model_->dimension(), model_->dimension()), std::move(details)};  // as they are told
+  }
+  next.base = std::make_shared<Base>(dressed(*model_, next.look));
+}
+
+PointsPtr Deformer::texture(const Texture& edit, int level) const {
+  if (!(edit.levels.weight(level) > 0)) return nullptr;
+  const auto at = static_cast<std::size_t>(level);
+  if (!edit.told.empty()) return at < edit.told.size() ? edit.told[at] : nullptr;
+  if (edit.from) return level < edit.from->levels() ? borrowed_texture(*model_, level, *edit.from) : nullptr;
+  const double size = edit.size > 0 ? edit.size : texture_size(model_->details(edit.levels.first));
+  const auto finer = static_cast<double>(level - edit.levels.first);
+  return random_texture(
+      *model_, level, size * std::pow(static_cast<double>(model_->shape().maps()), -edit.roughness * finer), edit.seed);
+}
+
+void Deformer::check_texture(const Texture& edit) const {
   check_levels(edit.levels);
   require_finite(&edit.roughness, 1, "roughness");
   if (!(edit.size >= 0 && std::isfinite(edit.size)))
@@ -338,25 +444,14 @@ void Deformer::make(State& next, const Texture& edit) const {
                       std::to_string(edit.from->levels() - 1) + ".")
           .with(edit.levels.last);
   }
-  const double size = edit.size > 0 ? edit.size : texture_size(model_->details(edit.levels.first));
-  for (int level = 0; level < model_->levels(); ++level) {
-    const double weight = edit.levels.weight(level);
-    if (!(weight > 0) || (edit.from && edit.from->levels() <= level)) continue;
-    const double shrunk =
-        size * std::pow(static_cast<double>(model_->shape().maps()), -edit.roughness * (level - edit.levels.first));
-    const PointsPtr fresh =
-        edit.from ? borrowed_texture(*model_, level, *edit.from) : random_texture(*model_, level, shrunk, edit.seed);
-    auto& look = next.look[static_cast<std::size_t>(level)];
-    PointsPtr details = fresh;
-    if (weight < 1) {
-      auto blend = std::make_shared<Points>(look.details ? *look.details : model_->details(level));
-      blend->matrix() = (blend->matrix() * look.map.transpose()).eval();
-      blend->matrix() += weight * (fresh->matrix() - blend->matrix());
-      details = std::move(blend);
-    }
-    look = {SmallMatrix::Identity(model_->dimension(), model_->dimension()), std::move(details)};  // as they are told
-  }
-  next.base = std::make_shared<Base>(dressed(*model_, next.look));
+  for (std::size_t level = 0; level < edit.told.size(); ++level)
+    if (edit.told[level] && (static_cast<int>(level) >= model_->levels() ||
+                             edit.told[level]->count() != model_->details(static_cast<int>(level)).count() ||
+                             edit.told[level]->dimension() != model_->dimension()))
+      throw Error(
+          Status::shape, "details",
+          "details[" + std::to_string(level) + "] are not as many as the model's level has, or of another dimension.")
+          .at(static_cast<Index>(level));
 }
 
 Index Deformer::count(int level) const { return handle_count(checked_level(level, model_->levels())); }

@@ -27,6 +27,14 @@ class Deformer {
   // argument: "level", "handles", "vectors", "radius", "first", "last", …
   void apply(const Edit& edit);
 
+  // When the edits that follow take place; it changes nothing of the present state.
+  void time_by(const Span& span);
+  const Span& span() const { return span_; }
+  // The curve at a time: a deformer of its own, whose state has of each edit of the log the share that its span says.
+  // Moves to places, drags and pins go from where the earlier edits' shares have led. At the end of all spans: the
+  // present state, bit for bit.
+  Deformer at_time(double time) const;
+
   // A step back or forth in the history; range errors where there is none.
   void undo();
   void redo();
@@ -39,8 +47,12 @@ class Deformer {
   bool knows(const std::string& name) const { return named_.contains(name); }
 
   // The edits that made the present state, the first one first; how many.
-  std::vector<Edit> log() const;
+  std::vector<Timed> log() const;
   Index edits() const;
+  // Makes edits one after the other, each a step, or, when one is refused, none: the error names it, "edits[3].level".
+  void replay(const std::vector<Timed>& edits);
+  // What a texture puts on a level, before its share: null where it does not reach.
+  PointsPtr texture(const Texture& edit, int level) const;
 
   // Places of a level, in the samples' coordinates: those that the last step may have changed are changed(level).
   Points places(int level, Index first, Index count) const;
@@ -66,12 +78,12 @@ class Deformer {
   };
   // A list from the last edit back, shared by states.
   struct Logged {
-    Logged(Edit made, std::shared_ptr<Logged> after) : edit(std::move(made)), before(std::move(after)) {}
+    Logged(Timed made, std::shared_ptr<Logged> after) : edit(std::move(made)), before(std::move(after)) {}
     Logged(const Logged&) = delete;
     Logged& operator=(const Logged&) = delete;
     ~Logged();  // one after the other: a long list would overflow the stack
 
-    Edit edit;
+    Timed edit;
     std::shared_ptr<Logged> before;
   };
   struct State {
@@ -87,6 +99,13 @@ class Deformer {
   Posed posed() const { return {*state().base, state().pose, manner_}; }
   void step_to(State next);
 
+  // What of an edit a share of it is, in the present state.
+  Move part(Move edit, double share) const;
+  Pin part(const Pin& edit, double share) const;
+  Drag part(Drag edit, double share) const;
+  Restyle part(Restyle edit, double share) const;
+  Texture part(Texture edit, double share) const;
+
   void make(State& next, const Move& edit) const;
   void make(State& next, const Pin& edit) const;
   void make(State& next, const Drag& edit) const;
@@ -99,6 +118,7 @@ class Deformer {
   Points points_at(const Posed& posed, const std::vector<double>& parameters) const;
   int checked_level(int level, int most) const;
   void check_levels(const Levels& levels) const;
+  void check_texture(const Texture& edit) const;
   Index handle_count(int level) const;
   void check_handles(int level, const std::vector<Index>& handles) const;
   Vector way_to(const Vector& place, const Points& now) const;
@@ -109,6 +129,7 @@ class Deformer {
   std::vector<StatePtr> history_;
   Index now_ = 0;
   Touched touched_;
+  Span span_;
   std::map<std::string, StatePtr> named_;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "curve/model.h"
+#include "deform/span.h"
 
 namespace ifsm::core {
 
@@ -48,13 +49,15 @@ struct Drag {
   Lead lead = Lead::handles;
 };
 
-// Levels `first` … `last`; with fade f, the f levels on each side follow by less and less.
+// Levels `first` … `last`; with fade f, the f levels on each side follow by less and less. All of it by a share: less
+// than 1 while the edit is under way.
 struct Levels {
   int first = 0;
   int last = 0;
   int fade = 0;
+  double share = 1;
 
-  // 1 within, 0 from fade + 1 levels away, smoothly between.
+  // The share within, 0 from fade + 1 levels away, smoothly between.
   double weight(int level) const;
 };
 
@@ -70,12 +73,19 @@ struct Restyle {
 // Details blended with others: of another model, turned into this one's frames; or random ones.
 struct Texture {
   Levels levels;
-  ModelPtr from;           // null: random
+  ModelPtr from;           // another model; null: random, or as told
   double roughness = 0.5;  // H: from level to level sizes shrink by N^-H
   double size = 0;         // root mean square of the details of the first level; 0: as the curve's own
   std::uint64_t seed = 0;
+  std::vector<PointsPtr> told = {};  // level by level, as they lie along this curve; not empty: instead of the others
 };
 
 using Edit = std::variant<Move, Pin, Drag, Restyle, Texture>;
+
+// An edit, and when it takes place.
+struct Timed {
+  Edit edit;
+  Span span;
+};
 
 }  // namespace ifsm::core

@@ -116,7 +116,8 @@ TEST(Deformer, UndoesRedoesAndReplaysToTheBit) {
     }
     EXPECT_EQ(deformer.redoable(), 0);
     Deformer again(model);
-    for (const Edit& edit : deformer.log()) again.apply(edit);
+    again.replay(deformer.log());
+    EXPECT_EQ(again.edits(), deformer.edits());
     EXPECT_EQ(all(again), met.back());
     while (deformer.undoable() > 0) deformer.undo();
     deformer.go_to("end");
@@ -134,6 +135,128 @@ TEST(Deformer, TakesVeryManyEdits) {
   for (int k = 0; k < 60'000; ++k) deformer.apply(Pin{1, {}, true});
   EXPECT_EQ(deformer.edits(), 60'000);
   EXPECT_EQ(deformer.samples(), samples(*model));
+}
+
+TEST(Span, SharesGrowFromNothingToExactlyAll) {
+  for (const Easing easing : {Easing::smooth, Easing::linear, Easing::in, Easing::out}) {
+    const Span span{2, 6, easing};
+    EXPECT_EQ(span.share(2), 0);
+    EXPECT_EQ(span.share(-1e300), 0);
+    EXPECT_EQ(span.share(6), 1);
+    EXPECT_EQ(span.share(1e300), 1);
+    double before = 0;
+    for (double time = 2.125; time < 6; time += 0.125) {
+      EXPECT_GT(span.share(time), before);
+      before = span.share(time);
+    }
+    EXPECT_LT(before, 1);
+  }
+  EXPECT_EQ((Span{2, 6, Easing::smooth}.share(4)), 0.5);
+  EXPECT_EQ((Span{2, 6, Easing::linear}.share(3)), 0.25);
+  EXPECT_EQ((Span{2, 6, Easing::in}.share(3)), 0.0625);
+  EXPECT_EQ((Span{2, 6, Easing::out}.share(5)), 0.9375);
+  const Span at_once{3, 3, Easing::smooth}, all_time{-1e308, 1e308, Easing::linear};
+  EXPECT_EQ(at_once.share(std::nextafter(3, 0)), 0);
+  EXPECT_EQ(at_once.share(3), 1);
+  EXPECT_EQ(all_time.share(0), 0.5);
+}
+
+TEST(Deformer, InTimeBeginsAsTheModelAndEndsAsThePresentToTheBit) {
+  Random random(19);
+  for (const Subject& s : subjects(random)) {
+    const ModelPtr model = rough(s, random);
+    Deformer deformer(model);
+    for (int step = 0; step < 6; ++step) {
+      deformer.time_by({static_cast<double>(step), step + 2.0, Easing::smooth});
+      deformer.apply(any_edit(deformer, random));
+    }
+    EXPECT_EQ(deformer.at_time(0).samples(), samples(*model)) << name(*model);
+    EXPECT_EQ(all(deformer.at_time(7)), all(deformer)) << name(*model);
+    // Continuous: a step of 2^-20 of a span moves no point by more than a small part of the curve.
+    const Points before = all(deformer.at_time(3.5)), after = all(deformer.at_time(3.5 + 0x1p-20));
+    EXPECT_GT(distance(before, after), 0) << name(*model);
+    EXPECT_LE(distance(before, after), 0x1p-14 * diagonal(before)) << name(*model);
+  }
+}
+
+TEST(Deformer, InTimeMovesAlongStraightLines) {
+  Random random(20);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 4, 2)), false, 2}, random);
+  Deformer deformer(model);
+  const Points start = deformer.places(0, 0, 4), by = vectors(random, 1, 2);
+  deformer.time_by({0, 1, Easing::linear});
+  deformer.apply(move(0, {1}, by));
+  deformer.time_by({1, 2, Easing::linear});
+  Move to = move(0, {1}, vectors(random, 1, 2));
+  to.places = true;
+  deformer.apply(to);
+  const double close = 8 * epsilon * (largest(start) + largest(by) + largest(to.vectors));
+  const Eigen::RowVectorXd a = start.matrix().row(1), b = a + by.matrix(), c = to.vectors.matrix();
+  for (const double s : {0.25, 0.5, 0.75}) {
+    EXPECT_LE((deformer.at_time(s).places(0, 1, 1).matrix() - (a + s * (b - a))).norm(), close);
+    EXPECT_LE((deformer.at_time(1 + s).places(0, 1, 1).matrix() - (b + s * (c - b))).norm(), close);
+  }
+  // A drag leads its point along a straight line as well; half a restyle scales by half as much.
+  Deformer other(model);
+  other.time_by({0, 1, Easing::linear});
+  const Points from = other.at({0.37});
+  Points place = from;
+  place.matrix().array() += 0.25;
+  other.apply(drag(2, {0.37}, place, Lead::handles));
+  const Points half = other.at_time(0.5).at({0.37});
+  EXPECT_LE((half.matrix().array() - from.matrix().array() - 0.125).matrix().norm(), 1e-12 * diagonal(start));
+  Deformer styled(model), less(model);
+  styled.time_by({0, 1, Easing::linear});
+  styled.apply(Restyle{{0, model->levels() - 1, 0}, 0, 0, -1});
+  less.apply(Restyle{{0, model->levels() - 1, 0}, 0.5, 0, -1});
+  EXPECT_EQ(all(styled.at_time(0.5)), all(less));
+}
+
+TEST(Deformer, ReplaysAllOrNothing) {
+  Random random(21);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 3, 2)), false, 2}, random);
+  Deformer deformer(model);
+  deformer.apply(move(1, {1}, vectors(random, 1, 2)));
+  deformer.undo();
+  const Points before = all(deformer);
+  std::vector<Timed> edits = {{move(0, {0}, vectors(random, 1, 2)), {}}, {move(1, {99}, vectors(random, 1, 2)), {}}};
+  const Error error = refusal([&] { deformer.replay(edits); });
+  EXPECT_EQ(error.argument(), "edits[1].handles");
+  EXPECT_EQ(error.index(), 0);
+  EXPECT_EQ(all(deformer), before);
+  EXPECT_EQ(deformer.redoable(), 1);
+  edits[1] = {Pin{0, {1}, true}, {5, 4, Easing::linear}};
+  EXPECT_EQ(refusal([&] { deformer.replay(edits); }).argument(), "edits[1].end");
+  EXPECT_EQ(deformer.edits(), 0);
+  edits.pop_back();
+  deformer.replay(edits);
+  EXPECT_EQ(deformer.edits(), 1);
+}
+
+// A joined curve is in one piece, whatever is done to it and when: a point where nodes meet is the same bits, told as
+// the last of one node and as the first of the next.
+TEST(Deformer, LeavesJoinedCurvesInOnePiece) {
+  Random random(22);
+  for (const Subject& s : subjects(random)) {
+    const Shape& shape = s.filter->shape();
+    if (!shape.joined()) continue;
+    const ModelPtr model = rough(s, random);
+    Deformer deformer(model);
+    for (int step = 0; step < 6; ++step) {
+      deformer.time_by({static_cast<double>(step), step + 3.0, Easing::smooth});
+      deformer.apply(any_edit(deformer, random));
+    }
+    for (const double time : {1.3, 4.1, 9.0}) {
+      const Deformer frame = deformer.at_time(time);
+      for (int level = 1; level <= model->levels(); ++level) {
+        const Index step = shape.polygon_step();
+        for (Index node = 1; node < shape.nodes(level); ++node) {
+          const Points left = frame.places(level, node * step - 1, 2), right = frame.places(level, node * step, 1);
+          ASSERT_EQ(left.matrix().row(1), right.matrix().row(0)) << name(*model) << " level " << level;
+        }
+      }
+    }
+  }
 }
 
 TEST(Deformer, ChangesNothingOutsideTheWindowThatItTells) {

@@ -281,7 +281,7 @@ const Scenario scenarios[] = {
     {"model_keep_resolve", "ifsm_model_keep", 1, 1, keep_resolved, drop_model},
     {"model_keep_resolve_two_threads", "ifsm_model_keep", 2, 5, keep_resolved, drop_model},
     {"model_keep_choice", "ifsm_model_keep", 1, 20, keep_choice, drop_model},
-    {"model_keep_within", "ifsm_model_keep", 1, 9, keep_within, drop_model},
+    {"model_keep_within", "ifsm_model_keep", 1, 61, keep_within, drop_model},
     {"model_distance", "ifsm_model_distance", 1, 1, distances, drop_nothing},
     {"model_length", "ifsm_model_length", 1, 1,
      [](World& world, std::uint64_t*) {
