@@ -1257,6 +1257,53 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_redo(ifsm_deformer deformer);
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_keep_as(ifsm_deformer deformer, const char *name);
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_go_to(ifsm_deformer deformer, const char *name);
 
+/* How the share of an edit that is made grows while it takes place, s being the part of the time that has passed. */
+enum {
+  IFSM_EASING_SMOOTH = 0, /* 3 s^2 - 2 s^3 */
+  IFSM_EASING_LINEAR = 1, /* s */
+  IFSM_EASING_IN = 2,     /* s^2 */
+  IFSM_EASING_OUT = 3     /* 1 - (1 - s)^2 */
+};
+
+/* When the edits that follow take place, for ifsm_deformer_at_time: from begin to end, in any unit; at once when the two
+ * are equal. A new deformer's take from 0 to 1, smoothly. It is no edit and changes nothing of the present state.
+ * Errors: INVALID_HANDLE, NOT_FINITE, RANGE (end before begin), BUSY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_time(ifsm_deformer deformer, double begin, double end,
+                                                      int32_t easing);
+
+/* The curve at a time, as a deformer of its own over the same model: the edits of the present state made again, each the
+ * share that is made by then. Moves and drags lead along straight lines, looks change by their shares, pins hold from
+ * their begin. Before all edits it is the model, after them the present state, bit for bit. A frame of an animation:
+ * ask it for points, or a snapshot.
+ * frame  [out] owned by the caller. Errors: INVALID_HANDLE, NULL, NOT_FINITE, those of the edits, BUSY, MEMORY. Since
+ * 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_at_time(ifsm_deformer deformer, double time, ifsm_deformer *frame);
+
+/* The edits that made the present state, with their times, as bytes (docs/format.md); what was undone is left out.
+ *
+ * format    IFSM_FORMAT_…
+ * bytes     [out] the file; capacity, count as in ifsm_model_save
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, BUSY, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_save(ifsm_deformer deformer, int32_t format, uint8_t *bytes,
+                                                      int64_t capacity, int64_t *count);
+
+/* Makes the edits of such a file, after those that there are: all, each a step to undo, or none. On a new deformer of the
+ * same model and options that gives the state that was saved, bit for bit.
+ *
+ * bytes  borrowed; count how many
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE (also: other options), SHAPE (the edits of another model, argument "model"),
+ * FORMAT, VERSION, LIMIT, NOT_FINITE, those of the edits ("edits[3].handles"), BUSY, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_replay(ifsm_deformer deformer, const uint8_t *bytes, int64_t count);
+
+/* Where the curve as it is meets itself and the model does not: rows as in ifsm_model_crossings, of pairs of segments
+ * (between neighbouring places) that do not meet in the model.
+ * rows  [out] 6 doubles each. Errors: INVALID_HANDLE, NULL, CAPACITY, SHAPE (not in the plane), LIMIT, BUSY, MEMORY.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_crossings(ifsm_deformer deformer, double *rows, int64_t capacity,
+                                                           int64_t *count);
+
 /* Handles first … first + number - 1 of a level, where they are; the finest level's are the curve's places.
  * points  [out] number × dimension doubles. Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, BUSY, MEMORY. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_points(ifsm_deformer deformer, int32_t level, int64_t first,

@@ -355,6 +355,15 @@ struct Crossing {
   double x, y;  // of the first ones
 };
 
+namespace detail {
+inline std::vector<Crossing> crossings(const std::vector<double>& rows) {
+  std::vector<Crossing> found;
+  for (auto row = rows.begin(); row != rows.end(); row += 6)
+    found.push_back({row[0], row[1], row[2], row[3], row[4], row[5]});
+  return found;
+}
+}  // namespace detail
+
 enum class Count : std::int32_t { boxes = IFSM_DIMENSION_BOXES, divider = IFSM_DIMENSION_DIVIDER };
 
 struct Dimension {
@@ -514,11 +523,7 @@ class Model {
     });
   }
   std::vector<Crossing> crossings() const {
-    const std::vector<double> rows = fetch<double>([&](auto... to) { return ifsm_model_crossings(handle(), to...); });
-    std::vector<Crossing> found;
-    for (auto row = rows.begin(); row != rows.end(); row += 6)
-      found.push_back({row[0], row[1], row[2], row[3], row[4], row[5]});
-    return found;
+    return detail::crossings(fetch<double>([&](auto... to) { return ifsm_model_crossings(handle(), to...); }));
   }
   // 0: the default number of scales, smallest and largest scale.
   Dimension dimension(Count method = Count::boxes, int scales = 0, double smallest = 0, double largest = 0) const {
@@ -594,6 +599,12 @@ enum class Falloff : std::int32_t {
 };
 enum class Ruler : std::int32_t { handles = IFSM_RULER_HANDLES, length = IFSM_RULER_LENGTH };
 enum class Lead : std::int32_t { handles = IFSM_LEAD_HANDLES, details = IFSM_LEAD_DETAILS };
+enum class Easing : std::int32_t {
+  smooth = IFSM_EASING_SMOOTH,
+  linear = IFSM_EASING_LINEAR,
+  in = IFSM_EASING_IN,
+  out = IFSM_EASING_OUT
+};
 
 // How handles move, as in ifsm_move_options.
 struct MoveOptions {
@@ -685,6 +696,31 @@ class Deformer {
   Deformer& redo() { return done(ifsm_deformer_redo(handle())); }
   Deformer& keep_as(const std::string& name) { return done(ifsm_deformer_keep_as(handle(), name.c_str())); }
   Deformer& go_to(const std::string& name) { return done(ifsm_deformer_go_to(handle(), name.c_str())); }
+
+  // When the edits that follow take place; the curve at a time.
+  Deformer& time(double begin, double end, Easing easing = Easing::smooth) {
+    return done(ifsm_deformer_time(handle(), begin, end, static_cast<std::int32_t>(easing)));
+  }
+  Deformer at_time(double time) const {
+    ifsm_deformer made{};
+    detail::check(ifsm_deformer_at_time(handle(), time, &made));
+    return Deformer(made);
+  }
+
+  // The edits, to be kept and made again.
+  std::vector<std::uint8_t> save(Format format) const {
+    return detail::fetch<std::uint8_t>(
+        [&](auto... to) { return ifsm_deformer_save(handle(), static_cast<std::int32_t>(format), to...); });
+  }
+  Deformer& replay(const std::vector<std::uint8_t>& bytes) {
+    return done(ifsm_deformer_replay(handle(), bytes.data(), detail::size_of(bytes.size())));
+  }
+
+  // Meetings of the curve with itself that the edits caused.
+  std::vector<Crossing> crossings() const {
+    return detail::crossings(
+        detail::fetch<double>([&](auto... to) { return ifsm_deformer_crossings(handle(), to...); }));
+  }
 
   std::vector<double> points(int level, std::int64_t first, std::int64_t number) const {
     return detail::fetch<double>(

@@ -4,13 +4,16 @@
 #include <ifsm.h>
 
 #include <cstring>
+#include <set>
 
 #include "capi/arguments.h"
 #include "capi/curves.h"
 #include "capi/deforming.h"
 #include "capi/guarded.h"
 #include "capi/nouns.h"
+#include "capi/rows.h"
 #include "curve/evaluate.h"
+#include "io/edits.h"
 
 namespace ifsm::core {
 namespace {
@@ -64,6 +67,26 @@ std::vector<double> parameters_of(const double* parameters, std::int64_t count) 
   return {given.begin(), given.end()};
 }
 
+using SegmentPair = std::pair<Index, Index>;
+
+SegmentPair segments_of(const Polyline& polyline, const Crossing& crossing) {
+  constexpr double rounding = 1e-9;  // of a position that is told as a parameter
+  const auto segment = [&](double parameter) { return static_cast<Index>(polyline.position(parameter) + rounding); };
+  return {segment(crossing.first_p), segment(crossing.first_q)};
+}
+
+// Of the curve as it is, those between segments that do not meet in the model.
+std::vector<Crossing> crossings_caused(const Deformer& deformer) {
+  const Model& model = deformer.model();
+  const Polyline before(model);
+  const Polyline after(deformer.places(model.levels(), 0, deformer.count(model.levels())), model.closed());
+  std::set<SegmentPair> had;
+  for (const Crossing& crossing : crossings(before)) had.insert(segments_of(before, crossing));
+  std::vector<Crossing> caused = crossings(after);
+  std::erase_if(caused, [&](const Crossing& crossing) { return had.contains(segments_of(after, crossing)); });
+  return caused;
+}
+
 }  // namespace
 }  // namespace ifsm::core
 
@@ -81,7 +104,7 @@ ifsm_status ifsm_deformer_create(ifsm_model model_handle, const ifsm_deformer_op
                         choice(options.follow, Follow::none, "follow")};
     in_range(options.reserved, 0, 0, "reserved");
     required(deformer, "deformer");
-    issue(std::make_shared<Deforming>(model, manner), *deformer);
+    issue(std::make_shared<Deforming>(Deformer(model, manner)), *deformer);
   });
 }
 
@@ -203,6 +226,48 @@ ifsm_status ifsm_deformer_go_to(ifsm_deformer handle, const char* name) {
   return guarded(__func__, [&] {
     const Held deformer(handle);
     deformer->go_to(name_of(name));
+  });
+}
+
+ifsm_status ifsm_deformer_time(ifsm_deformer handle, double begin, double end, int32_t easing) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    deformer->time_by({begin, end, choice(easing, Easing::out, "easing")});
+  });
+}
+
+ifsm_status ifsm_deformer_at_time(ifsm_deformer handle, double time, ifsm_deformer* frame) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    required(frame, "frame");
+    issue(std::make_shared<Deforming>(deformer->at_time(time)), *frame);
+  });
+}
+
+ifsm_status ifsm_deformer_save(ifsm_deformer handle, int32_t format, uint8_t* bytes, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    const auto file = write_edits(*deformer, choice(format, Format::cbor, "format"));
+    deliver(
+        static_cast<int64_t>(file.size()), output(bytes, capacity, "bytes"),
+        required(count, "count"), [&]() -> const auto& { return file; });
+  });
+}
+
+ifsm_status ifsm_deformer_replay(ifsm_deformer handle, const uint8_t* bytes, int64_t count) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    const auto file = input(bytes, count, "bytes", "count");
+    deformer->replay(read_edits({file.begin(), file.end()}, *deformer));
+  });
+}
+
+ifsm_status ifsm_deformer_crossings(ifsm_deformer handle, double* rows, int64_t capacity, int64_t* count) {
+  return guarded(__func__, [&] {
+    const Held deformer(handle);
+    const auto to = output(rows, capacity, "rows");
+    required(count, "count");
+    deliver_rows(rows_of(crossings_caused(*deformer)), to, *count);
   });
 }
 

@@ -9,7 +9,7 @@
 namespace ifsm::core {
 
 struct Deforming {
-  Deforming(ModelPtr model, const Manner& manner) : deformer(std::move(model), manner) {}
+  explicit Deforming(Deformer made) : deformer(std::move(made)) {}
 
   Deformer deformer;
   std::atomic_flag busy = ATOMIC_FLAG_INIT;

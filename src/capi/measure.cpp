@@ -7,6 +7,7 @@
 #include "capi/curves.h"
 #include "capi/guarded.h"
 #include "capi/nouns.h"
+#include "capi/rows.h"
 #include "measure/crossings.h"
 #include "measure/curvature.h"
 #include "measure/dimension.h"
@@ -53,25 +54,12 @@ std::vector<double> rows_of(const Nearest& found) {
   return rows;
 }
 
-std::vector<double> rows_of(const std::vector<Crossing>& crossings) {
-  std::vector<double> rows;
-  rows.reserve(crossings.size() * 6);
-  for (const Crossing& c : crossings)
-    rows.insert(rows.end(), {c.first_p, c.first_q, c.last_p, c.last_q, c.point[0], c.point[1]});
-  return rows;
-}
-
 // Two columns side by side.
 std::vector<double> rows_of(const std::vector<double>& left, const std::vector<double>& right) {
   std::vector<double> rows;
   rows.reserve(2 * left.size());
   for (std::size_t i = 0; i < left.size(); ++i) rows.insert(rows.end(), {left[i], right[i]});
   return rows;
-}
-
-void deliver_rows(const std::vector<double>& rows, const Output<double>& to, int64_t& count) {
-  deliver(
-      static_cast<int64_t>(rows.size()), to, count, [&]() -> const auto& { return rows; });
 }
 
 ScaleRange range_of(const ifsm_dimension_options& options) {

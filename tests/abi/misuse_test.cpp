@@ -207,6 +207,7 @@ TEST(Misuse, DoublesThatAreNotFiniteOrOutsideAreRefused) {
       call[i].real = value;
       expect_refused(call, {IFSM_ERROR_NOT_FINITE}, {parameter.name}, text(parameter, std::to_string(value)));
     }
+    if (parameter.low == "any") return;  // every finite number means something
     for (const double value : {std::stod(parameter.low) - 0.5, std::stod(parameter.high) + 0.5, 1e308, -1e308}) {
       call[i].real = value;
       expect_refused(call, {IFSM_ERROR_RANGE}, {parameter.name}, text(parameter, std::to_string(value)));

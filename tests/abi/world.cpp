@@ -95,6 +95,9 @@ World::World() {
   ids_["ifsm_cancel"] = fresh("ifsm_cancel");
   ids_["ifsm_fit"] = fresh("ifsm_fit");
   ids_["ifsm_deformer"] = fresh("ifsm_deformer");
+  edits_ = read<std::uint8_t>([&](std::uint8_t* to, std::int64_t room, std::int64_t* count) {
+    return ifsm_deformer_save({id("ifsm_deformer")}, IFSM_FORMAT_CBOR, to, room, count);
+  });
 }
 
 World::~World() {
@@ -133,7 +136,7 @@ std::uint64_t World::deformer() const {
   ifsm_deformer made{};
   must(ifsm_deformer_create({id("ifsm_model")}, nullptr, &made), "deformer");
   const std::int64_t handle = 1;
-  const double by[] = {0.25, 0.5};
+  const double by[] = {-40, 30};  // across other parts of the curve
   for (int edit = 0; edit < 2; ++edit) must(ifsm_deformer_move(made, 1, &handle, 1, by, 2, nullptr), "move");
   must(ifsm_deformer_keep_as(made, "kept"), "keep");
   must(ifsm_deformer_undo(made), "undo");
@@ -213,7 +216,7 @@ void Call::prepare(std::size_t i) {
     buffer = bytes_of(values.data(), values.size());
     elements_[i] = static_cast<std::int64_t>(values.size());
   } else if (kind == "bytes_in") {
-    buffer = world_.saved();
+    buffer = world_.saved(parameter.good);
     elements_[i] = static_cast<std::int64_t>(buffer.size());
   } else if (kind == "count") {
     argument.integer = elements_[i] = elements_[i - 1];

@@ -24,11 +24,12 @@ class Deformers : public testing::Test {
     WORKS(ifsm_filter_destroy(filter));
   }
 
-  std::vector<double> samples() {
+  std::vector<double> samples() { return samples_of(deformer); }
+  static std::vector<double> samples_of(ifsm_deformer of) {
     int64_t count = 0;
-    EXPECT_EQ(ifsm_deformer_samples(deformer, nullptr, 0, &count), IFSM_OK);
+    EXPECT_EQ(ifsm_deformer_samples(of, nullptr, 0, &count), IFSM_OK);
     std::vector<double> values(static_cast<size_t>(count));
-    EXPECT_EQ(ifsm_deformer_samples(deformer, values.data(), count, &count), IFSM_OK);
+    EXPECT_EQ(ifsm_deformer_samples(of, values.data(), count, &count), IFSM_OK);
     return values;
   }
   static std::vector<double> samples_of(ifsm_model of) {
@@ -131,6 +132,81 @@ TEST_F(Deformers, RefuseMovesOfPinsAndTextureOfOtherShapes) {
   EXPECT_EQ(samples(), before);
   WORKS(ifsm_model_destroy(stranger));
   WORKS(ifsm_filter_destroy(other));
+}
+
+TEST_F(Deformers, SaveTheirEditsAndMakeThemAgainOnTheSameModelAlone) {
+  const int64_t handles[] = {1, 3};
+  const double by[] = {1, 2, 3, 4};
+  WORKS(ifsm_deformer_time(deformer, 2, 4, IFSM_EASING_LINEAR));
+  WORKS(ifsm_deformer_move(deformer, 0, handles, 2, by, 4, nullptr));
+  WORKS(ifsm_deformer_time(deformer, 4, 4, IFSM_EASING_OUT));
+  WORKS(ifsm_deformer_restyle(deformer, 2, 3, 0.5, nullptr));
+  WORKS(ifsm_deformer_pin(deformer, 1, handles, 1, 1));
+  WORKS(ifsm_deformer_undo(deformer));
+  for (const int32_t format : {IFSM_FORMAT_JSON, IFSM_FORMAT_CBOR}) {
+    int64_t count = 0;
+    WORKS(ifsm_deformer_save(deformer, format, nullptr, 0, &count));
+    std::vector<uint8_t> file(static_cast<size_t>(count));
+    WORKS(ifsm_deformer_save(deformer, format, file.data(), count, &count));
+    ifsm_deformer again{}, frames[2] = {};
+    WORKS(ifsm_deformer_create(model, nullptr, &again));
+    WORKS(ifsm_deformer_replay(again, file.data(), count));
+    WORKS(ifsm_deformer_at_time(deformer, 3, &frames[0]));
+    WORKS(ifsm_deformer_at_time(again, 3, &frames[1]));
+    EXPECT_EQ(samples_of(again), samples());
+    EXPECT_EQ(samples_of(frames[0]), samples_of(frames[1]));
+    EXPECT_NE(samples_of(frames[0]), samples());
+    // A frame knows the edits of its time: the move by half, and no restyle.
+    ifsm_deformer_info told{};
+    told.struct_size = sizeof told;
+    WORKS(ifsm_deformer_describe(frames[0], &told));
+    EXPECT_EQ(told.edits, 1);
+
+    EXPECT_EQ(ifsm_deformer_replay(again, file.data(), count - 2), IFSM_ERROR_FORMAT);
+    EXPECT_STREQ(last_error().argument, "bytes");
+    ifsm_model other{};
+    WORKS(ifsm_deformer_snapshot(again, &other));
+    ifsm_deformer stranger{};
+    WORKS(ifsm_deformer_create(other, nullptr, &stranger));
+    FAILS(ifsm_deformer_replay(stranger, file.data(), count), IFSM_ERROR_SHAPE, "model");
+    for (const ifsm_deformer one : {again, frames[0], frames[1], stranger}) WORKS(ifsm_deformer_destroy(one));
+    WORKS(ifsm_model_destroy(other));
+  }
+  FAILS(ifsm_deformer_time(deformer, 2, 1, IFSM_EASING_LINEAR), IFSM_ERROR_RANGE, "end");
+}
+
+TEST_F(Deformers, TellTheCrossingsThatTheyCaused) {
+  int64_t before = 0, count = -1;
+  WORKS(ifsm_model_crossings(model, nullptr, 0, &before));
+  WORKS(ifsm_deformer_crossings(deformer, nullptr, 0, &count));
+  EXPECT_EQ(count, 0);
+  // The two inner control points change sides: a loop.
+  const int64_t inner[] = {1, 3};
+  const double by[] = {10, 10, -10, 10};
+  WORKS(ifsm_deformer_move(deformer, 0, inner, 2, by, 4, nullptr));
+  WORKS(ifsm_deformer_crossings(deformer, nullptr, 0, &count));
+  ASSERT_GT(count, 0);
+  EXPECT_EQ(count % 6, 0);
+  std::vector<double> rows(static_cast<size_t>(count));
+  WORKS(ifsm_deformer_crossings(deformer, rows.data(), count, &count));
+  for (size_t row = 0; row < rows.size(); row += 6) {
+    double points[4];
+    int64_t number = 0;
+    WORKS(ifsm_deformer_evaluate(deformer, &rows[row], 2, points, 4, &number));
+    EXPECT_NEAR(points[0], points[2], 1e-9);
+    EXPECT_NEAR(points[1], points[3], 1e-9);
+    EXPECT_NEAR(points[0], rows[row + 4], 1e-9);
+  }
+  ifsm_model now{};
+  WORKS(ifsm_deformer_snapshot(deformer, &now));
+  int64_t all = 0;
+  WORKS(ifsm_model_crossings(now, nullptr, 0, &all));
+  EXPECT_LE(count, all);
+  EXPECT_GE(count, all - before);
+  WORKS(ifsm_model_destroy(now));
+  WORKS(ifsm_deformer_undo(deformer));
+  WORKS(ifsm_deformer_crossings(deformer, nullptr, 0, &count));
+  EXPECT_EQ(count, 0);
 }
 
 TEST_F(Deformers, KeepTheirModelAlive) {

@@ -125,6 +125,20 @@ TEST(Cpp, DeformsAndUndoes) {
   EXPECT_THROW(deformer.redo(), ifsm::Error);
 }
 
+TEST(Cpp, DeformsInTimeAndKeepsTheEdits) {
+  const ifsm::Model model = wavy_model();
+  ifsm::Deformer deformer(model);
+  deformer.time(1, 3, ifsm::Easing::linear).move(0, {1}, {4, 2}).time(3, 3).restyle(0, 1, 0.5);
+  EXPECT_EQ(deformer.at_time(1).samples(), ifsm::Deformer(model).samples());
+  EXPECT_EQ(deformer.at_time(3).samples(), deformer.samples());
+  const auto from = ifsm::Deformer(model).points(0, 1, 1), half = deformer.at_time(2).points(0, 1, 1);
+  EXPECT_NEAR(half[0], from[0] + 2, 1e-12);
+  EXPECT_NEAR(half[1], from[1] + 1, 1e-12);
+  ifsm::Deformer again(model);
+  EXPECT_EQ(again.replay(deformer.save(ifsm::Format::json)).samples(), deformer.samples());
+  for (const ifsm::Crossing& crossing : again.crossings()) EXPECT_LT(crossing.first_p, crossing.first_q);
+}
+
 TEST(Cpp, AsksEveryQuestion) {
   const ifsm::Model model = wavy_model();
   EXPECT_GT(model.length(), 10);

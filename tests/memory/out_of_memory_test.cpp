@@ -35,7 +35,8 @@ struct World {
   ifsm_filter filter{};
   ifsm_model model{};
   ifsm_fit fit{}, curve_fit{};
-  ifsm_deformer deformer{};  // with an edit to undo
+  ifsm_deformer deformer{};         // with an edit to undo
+  std::vector<std::uint8_t> edits;  // that one
   std::vector<double> samples, matrix, details, polygon;
   std::vector<std::uint8_t> json, cbor;
   std::vector<double> room = std::vector<double>(4096);
@@ -375,6 +376,31 @@ const Scenario scenarios[] = {
     {"deformer_snapshot", "ifsm_deformer_snapshot", 1, 1,
      [](World& world, std::uint64_t* made) { return ifsm_deformer_snapshot(world.deformer, as<ifsm_model>(made)); },
      drop_model},
+    {"deformer_at_time", "ifsm_deformer_at_time", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_deformer_at_time(world.deformer, 0.25, as<ifsm_deformer>(made));
+     },
+     drop_deformer},
+    {"deformer_save", "ifsm_deformer_save", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::uint8_t bytes[1024];
+       std::int64_t count = 0;
+       return ifsm_deformer_save(world.deformer, IFSM_FORMAT_JSON, bytes, sizeof bytes, &count);
+     },
+     drop_nothing},
+    {"deformer_replay", "ifsm_deformer_replay", 1, 1,
+     [](World& world, std::uint64_t*) {
+       return edited(world, [&](ifsm_deformer deformer) {
+         return ifsm_deformer_replay(deformer, world.edits.data(), static_cast<std::int64_t>(world.edits.size()));
+       });
+     },
+     drop_nothing},
+    {"deformer_crossings", "ifsm_deformer_crossings", 1, 7,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_deformer_crossings(world.deformer, nullptr, 0, &count);
+     },
+     drop_nothing},
     {"model_save_json", "ifsm_model_save", 1, 1,
      [](World& world, std::uint64_t*) { return save(world, IFSM_FORMAT_JSON); }, drop_nothing},
     {"model_save_cbor", "ifsm_model_save", 1, 1,
@@ -443,6 +469,10 @@ World make_world() {
   const std::int64_t handle = 2;
   const double by[] = {3, 5};
   EXPECT_EQ(ifsm_deformer_move(world.deformer, 2, &handle, 1, by, 2, nullptr), IFSM_OK);
+  world.edits.resize(1024);
+  std::int64_t bytes = 0;
+  EXPECT_EQ(ifsm_deformer_save(world.deformer, IFSM_FORMAT_CBOR, world.edits.data(), 1024, &bytes), IFSM_OK);
+  world.edits.resize(static_cast<std::size_t>(bytes));
   EXPECT_EQ(fit_small(world, &world.fit.id), IFSM_OK);
   EXPECT_EQ(fit_curve_small(world, &world.curve_fit.id), IFSM_OK);
   world.matrix = read<double>([&](double* to, std::int64_t room, std::int64_t* count) {
