@@ -43,7 +43,7 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(footer);
   for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_plot, cli::add_measure,
-                         cli::add_nearest, cli::add_refine, cli::add_train})
+                         cli::add_nearest, cli::add_refine, cli::add_deform, cli::add_train})
     add(program, session);
   cli::check_command(program, argc, argv);
   try {

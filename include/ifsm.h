@@ -1134,6 +1134,8 @@ typedef struct ifsm_deformer_info {
   int64_t undoable; /* steps that ifsm_deformer_undo can go back */
   int64_t redoable; /* and ifsm_deformer_redo forth */
   int64_t edits;    /* that made the present state */
+  double begin;     /* when the first of them begins, and when the last one ends; 0 without any */
+  double end;
 } ifsm_deformer_info;
 
 /* info  [out] its struct_size is set by the caller. Errors: INVALID_HANDLE, NULL, OPTIONS, BUSY. Since 0.1. */

@@ -28,6 +28,7 @@ void add_train(CLI::App& program, Session& session);
 void add_measure(CLI::App& program, Session& session);
 void add_nearest(CLI::App& program, Session& session);
 void add_refine(CLI::App& program, Session& session);
+void add_deform(CLI::App& program, Session& session);
 
 // ---- options that several commands share
 

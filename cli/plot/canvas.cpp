@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <sstream>
 #include <stdexcept>
@@ -231,6 +232,20 @@ Canvas::Clip::~Clip() { cairo_restore(context_); }
 std::string Canvas::bytes(const std::string& title) {
   check(cairo_status(context_.get()));
   return format_ == Format::Png ? png() : svg(title);
+}
+
+Pixels Canvas::pixels() {
+  check(cairo_status(context_.get()));
+  auto* const surface = surface_.get();
+  cairo_surface_flush(surface);
+  Pixels all{cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), {}};
+  const unsigned char* row = cairo_image_surface_get_data(surface);
+  const auto width = static_cast<std::size_t>(all.width);
+  all.values.resize(width * static_cast<std::size_t>(all.height));
+  for (std::size_t y = 0; y < static_cast<std::size_t>(all.height); ++y, row += cairo_image_surface_get_stride(surface))
+    std::memcpy(&all.values[y * width], row, width * sizeof all.values[0]);
+  for (auto& value : all.values) value |= 0xff000000;  // cairo leaves that byte open
+  return all;
 }
 
 std::string Canvas::png() {

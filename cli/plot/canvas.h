@@ -13,6 +13,7 @@
 
 #include "colour.h"
 #include "thin.h"
+#include "webp.h"
 
 namespace plot {
 
@@ -83,6 +84,8 @@ class Canvas {
 
   // The finished page as a file; `title` is what an SVG tells to those who do not see it. Throws std::runtime_error.
   std::string bytes(const std::string& title);
+  // The same as pixels, of a canvas for PNG.
+  Pixels pixels();
 
  private:
   std::vector<std::string> broken(const std::string& word, const Font& font, double width);

@@ -38,6 +38,17 @@ double height_of(Canvas& canvas, const std::string& words, const Font& font, dou
 
 std::string Figure::bytes(Format format) const {
   Canvas canvas({width, height, scale}, format);
+  draw(canvas);
+  return canvas.bytes(title);
+}
+
+Pixels Figure::pixels() const {
+  Canvas canvas({width, height, scale}, Format::Png);
+  draw(canvas);
+  return canvas.pixels();
+}
+
+void Figure::draw(Canvas& canvas) const {
   Box page{margin, margin, width / scale - 2 * margin, height / scale - 2 * margin};
   page = take_lines(canvas, page, title, headline);
   const double foot = height_of(canvas, note, small_print, page.width);
@@ -59,7 +70,6 @@ std::string Figure::bytes(Format format) const {
     panels[i].draw(canvas, {left, top, unit * widths[column], tall});
     left += unit * widths[column] + gutter;
   }
-  return canvas.bytes(title);
 }
 
 }  // namespace plot

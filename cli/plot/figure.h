@@ -19,6 +19,10 @@ struct Figure {
   std::vector<Panel> panels = {};   // row by row
 
   std::string bytes(Format format) const;
+  Pixels pixels() const;
+
+ private:
+  void draw(Canvas& canvas) const;
 };
 
 }  // namespace plot

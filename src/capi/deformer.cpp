@@ -119,6 +119,9 @@ ifsm_status ifsm_deformer_describe(ifsm_deformer handle, ifsm_deformer_info* inf
     told.undoable = deformer->undoable();
     told.redoable = deformer->redoable();
     told.edits = deformer->edits();
+    const auto times = deformer->times();
+    told.begin = times ? times->begin : 0;
+    told.end = times ? times->end : 0;
     Report(info, "info").write(told);
   });
 }

@@ -110,6 +110,16 @@ void Deformer::time_by(const Span& span) {
   span_ = span;
 }
 
+std::optional<Span> Deformer::times() const {
+  std::optional<Span> all;
+  for (auto entry = state().log; entry; entry = entry->before) {
+    const Span& span = entry->edit.span;
+    if (!all) all = span;
+    all = {std::min(all->begin, span.begin), std::max(all->end, span.end), Easing::linear};
+  }
+  return all;
+}
+
 Deformer Deformer::at_time(double time) const {
   require_finite(&time, 1, "time");
   Deformer frame = *this;  // states are shared

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,8 @@ class Deformer {
   // Moves to places, drags and pins go from where the earlier edits' shares have led. At the end of all spans: the
   // present state, bit for bit.
   Deformer at_time(double time) const;
+  // From the first begin of the log's edits to the last end; nothing, without any.
+  std::optional<Span> times() const;
 
   // A step back or forth in the history; range errors where there is none.
   void undo();

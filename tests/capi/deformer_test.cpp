@@ -172,6 +172,8 @@ TEST_F(Deformers, SaveTheirEditsAndMakeThemAgainOnTheSameModelAlone) {
     for (const ifsm_deformer one : {again, frames[0], frames[1], stranger}) WORKS(ifsm_deformer_destroy(one));
     WORKS(ifsm_model_destroy(other));
   }
+  EXPECT_EQ(info().begin, 2);
+  EXPECT_EQ(info().end, 4);
   FAILS(ifsm_deformer_time(deformer, 2, 1, IFSM_EASING_LINEAR), IFSM_ERROR_RANGE, "end");
 }
 

@@ -431,6 +431,119 @@ class Plot(Program):
 ISLANDS = pathlib.Path(__file__).parents[2] / "data" / "islands" / "islands.geojson"
 
 
+def frames_of_webp(path):
+    """The sizes and durations of an animation's frames; RIFF chunks as its container specification has them."""
+    content = path.read_bytes()
+    assert content[:4] == b"RIFF" and content[8:12] == b"WEBP", content[:12]
+    at, found = 12, []
+    while at < len(content):
+        name, size = content[at:at + 4], int.from_bytes(content[at + 4:at + 8], "little")
+        if name == b"ANMF":
+            found.append(int.from_bytes(content[at + 20:at + 23], "little"))
+        at += 8 + size + size % 2
+    return found
+
+
+class Deform(Program):
+    def points(self, *bends, name="bent.csv"):
+        target = self.file(name)
+        self.fine("deform", self.model(), *bends, "-q", "-o", target)
+        return numbers(target.read_text())
+
+    def test_nothing_done_changes_nothing(self):
+        self.assertEqual(self.points(), numbers(self.fine("synth", self.model())))
+
+    def test_moves_by_and_to(self):
+        control = numbers(self.fine("synth", self.model(), "--level", 0))
+        for way in ("+0.5,-0.25", f"={control[2][0] + 0.5!r},{control[2][1] - 0.25!r}"):
+            bent = self.file("bent.ifsm")
+            self.fine("deform", self.model(), "--move", f"2:{way}", "-q", "-o", bent)
+            moved = numbers(self.fine("synth", bent, "--level", 0))
+            for k, (a, b) in enumerate(zip(control, moved)):
+                wanted = (a[0] + 0.5, a[1] - 0.25) if k == 2 else a
+                self.assertLess(math.dist(b, wanted), 1e-12)
+
+    def test_a_dragged_point_arrives_and_the_pinned_stay(self):
+        bent = self.file("bent.ifsm")
+        before = numbers(self.fine("eval", self.model(), "--at", "0.3,0.8"))
+        self.fine("deform", self.model(), "--move-at", "0.3:+0.1,0.2;0.8:+0,0@4", "-q", "-o", bent)
+        after = numbers(self.fine("eval", bent, "--at", "0.3,0.8"))
+        for a, b, by in zip(before, after, [(0.1, 0.2), (0, 0)]):
+            self.assertLess(math.dist(b[1:], (a[1] + by[0], a[2] + by[1])), 1e-9)
+
+    def test_edits_are_made_in_their_order(self):
+        there = self.points("--scale-details", "0.5@2", "--texture", "random=0.7,3@2")
+        back = self.points("--texture", "random=0.7,3@2", "--scale-details", "0.5@2")
+        self.assertNotEqual(there, back)
+        self.assertEqual(self.points("--texture", "random=0.7,3@2"), there)  # texture takes the place of what was scaled
+        self.assertEqual(self.points("--scale-details", "0"), self.points("--scale-details", "0@first7"))
+
+    def test_kept_edits_are_made_again_on_the_same_model_alone(self):
+        bends = ("--during", "0,2,linear", "--move", "1/3:+1,1@smooth=2,length", "--pin", "2/5,6", "--turn-details",
+                 "30@last2~1", "--mirror-details", "y@1-2")
+        wanted = self.points(*bends)
+        for name in ("e.json", "e.cbor"):
+            self.fine("deform", self.model(), *bends, "--keep-edits", self.file(name), "-q", "-o", self.file("b.csv"))
+            self.assertEqual(self.points("--edits", self.file(name)), wanted)
+        other = self.model("other.ifsm") and self.file("bent.ifsm")
+        self.fine("deform", self.model(), *bends, "-q", "-o", other)
+        self.refused(3, ["e.json", "another model"], "deform", other, "--edits", self.file("e.json"), "-o", self.file("x.csv"))
+        self.assertFalse(self.file("x.csv").exists())
+
+    def test_pictures_and_films(self):
+        svg, png, film = self.file("b.svg"), self.file("b.png"), self.file("b.webp")
+        self.fine("deform", self.model(), "--move", "2:+1,0", "-q", "-o", svg)
+        self.assertEqual(frames(svg), 1)
+        self.fine("deform", self.model(), "--move", "2:+1,0", "--width", 300, "--height", 200, "-q", "-o", png)
+        self.assertEqual(size_of_png(png), (300, 200))
+        during = ("--during", "0,1", "--move", "2:+1,0", "--during", "1,2", "--scale-details", 0)
+        report = json.loads(self.fine("deform", self.model(), *during, "--frames", 6, "--rate", 10, "--width", 300, "-q",
+                                      "--json", "-o", film))
+        self.assertEqual(frames_of_webp(film), [100] * 6)
+        self.assertEqual((report["edits"], report["frames"]), (2, 6))
+        self.fine("deform", self.model(), *during, "--frames", 3, "--width", 300, "-q", "-o", self.file("f-%02d.png"))
+        self.assertEqual([name for name in self.names() if name.startswith("f-")], ["f-01.png", "f-02.png", "f-03.png"])
+        self.assertNotEqual(self.file("f-01.png").read_bytes(), self.file("f-03.png").read_bytes())
+
+    def test_crossings_that_edits_caused_are_told(self):
+        tell = lambda *bends: json.loads(self.fine("deform", self.model(), *bends, "--json", "-q", "-o", self.file("b.csv")))
+        self.assertEqual(tell()["crossings"], 0)
+        self.assertGreater(tell("--move", "3/4:+400,-300")["crossings"], 0)
+
+    def test_misuse(self):
+        model, target = self.model(), self.file("x.ifsm")
+        for words, *bends in [
+                ("--move 2:10,4: '10,4' is no way: begin it with +", "--move", "2:10,4"),
+                ("--move 2: '2' has no colon", "--move", "2"),
+                ("--move :+1,1: '' is not a handle's number", "--move", ":+1,1"),
+                ("--move 2:+1: the curve has dimension 2", "--move", "2:+1"),
+                ("--move 2:+1,nan: 'nan' is not a number", "--move", "2:+1,nan"),
+                ("--move 2:+1,1@near=2: 'near=2' is none of smooth=RADIUS", "--move", "2:+1,1@near=2"),
+                ("--move 99:+1,1: handles[0] is 99; level 0 has handles 0 to ", "--move", "99:+1,1"),
+                ("--move 77/0:+1,1: level is 77", "--move", "77/0:+1,1"),
+                ("--move 2:+1,1@smooth=-1: radius is -1", "--move", "2:+1,1@smooth=-1"),
+                ("--move-at 1:+1,1;1:+2,2@3: ", "--move-at", "1:+1,1;1:+2,2@3"),
+                ("--pin 1/x: 'x' is not a handle's number", "--pin", "1/x"),
+                ("--move 1/2:+1,1: handles[0], 2, is pinned", "--pin", "1/2", "--move", "1/2:+1,1"),
+                ("--scale-details x: 'x' is not a number", "--scale-details", "x"),
+                ("--scale-details 2@last99: 'last99': the model has ", "--scale-details", "2@last99"),
+                ("--scale-details 2@5-3: last is 3", "--scale-details", "2@5-3"),
+                ("--mirror-details z: 'z' is no axis", "--mirror-details", "z"),
+                ("--texture random=0.5,1,2: random takes", "--texture", "random=0.5,1,2"),
+                ("--during 2,1: end is 1 and begin 2", "--during", "2,1"),
+                ("--during 2: give a begin and an end", "--during", "2"),
+                ("--during 0,1,slow: 'slow' is none of smooth, linear, in, out", "--during", "0,1,slow"),
+                ("--move needs a value", "--move")]:
+            with self.subTest(bends=bends):
+                self.refused(2, "ifsm: " + words, "deform", model, "-o", target, *bends)
+        for words, output, *more in [("is an animation; add --frames", "b.webp"),
+                                     ("--frames makes pictures", "b.ifsm", "--frames", 3),
+                                     ("names one file for 3 pictures; put %03d", "b.png", "--frames", 3)]:
+            self.refused(2, words, "deform", model, "--move", "2:+1,1", "-q", "-o", self.file(output), *more)
+        self.refused(3, "none.ifsm", "deform", model, "--texture", self.file("none.ifsm"), "-o", target)
+        self.assertEqual(self.names(), ["ring.csv", "ring.ifsm"])
+
+
 class GeoJson(Program):
     def rings(self):
         features = json.loads(ISLANDS.read_text())["features"]

@@ -1,0 +1,23 @@
+// The edits of ifsm deform as words: what --move and its kin are given.
+#pragma once
+
+#include <string>
+
+#include <ifsm.hpp>
+
+namespace cli {
+
+// Makes the edit that an option's value tells; docs/cli.md has the grammar:
+//
+//   move            [LEVEL/]HANDLE:WAY[@HOW]      WAY: +X,Y (by so much), =X,Y (to a place); HOW: smooth=R, linear=R,
+//                                                 length, curve
+//   move-at         T:WAY[;T:WAY …][@LEVEL]       points of the curve, by handles of a level; @details=LEVEL: by
+//   details pin, unpin      [LEVEL/]HANDLE[,HANDLE …] scale-details   FACTOR[@LEVELS]               LEVELS: 3, 2-5,
+//   first2, last2; ~F: F levels on each side fade turn-details    DEGREES[@LEVELS] mirror-details  AXIS[@LEVELS] x, y,
+//   z, w texture         MODEL[@LEVELS], random[=H[,SEED]][@LEVELS] during          BEGIN,END[,EASING]            when
+//   the edits that follow take place edits           FILE                          edits that were kept
+//
+// Throws Failure{Usage} with the option and its value, Failure{Input} for files; the deformer is then as it was.
+void bend(ifsm::Deformer& deformer, const std::string& option, const std::string& value);
+
+}  // namespace cli
