@@ -16,7 +16,7 @@ std::array<Word, 2> multiply(Word a, Word b) {
 // -1 … 1, 53 bits.
 double symmetric(Word high, Word low) {
   const std::uint64_t bits = (std::uint64_t{high} << 32 | low) >> 11;
-  return std::ldexp(static_cast<double>(bits), -52) - 1;
+  return static_cast<double>(bits) * 0x1p-52 - 1;
 }
 
 // The natural logarithm, to a few roundings: libraries differ in the last bit of theirs.
@@ -26,8 +26,10 @@ double logarithm(double value) {
   if (mantissa < 0.70710678118654752) mantissa *= 2, --exponent;
   // log m = 2 artanh s; s² < 0.03, so what follows the term s^23 / 23 is below 2^-57.
   const double s = (mantissa - 1) / (mantissa + 1), square = s * s;
+  constexpr double terms[] = {1. / 23, 1. / 21, 1. / 19, 1. / 17, 1. / 15, 1. / 13,
+                              1. / 11, 1. / 9,  1. / 7,  1. / 5,  1. / 3,  1};
   double sum = 0;
-  for (int odd = 23; odd >= 1; odd -= 2) sum = sum * square + 1.0 / odd;
+  for (const double term : terms) sum = sum * square + term;
   return exponent * 0.69314718055994531 + 2 * s * sum;
 }
 

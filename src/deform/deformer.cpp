@@ -273,13 +273,15 @@ void Deformer::make(State& next, const Move& edit) const {
   std::vector<Index> all;
   for (const auto& [handle, by] : moved) {
     all.push_back(handle);
-    displace(next, now, edit.level, handle, by, edit.reach);
+    const bool turns = edit.level > 0 && edit.reach == Reach::nodes;
+    displace(next, edit.level, handle, by, edit.reach, turns ? now.frame(edit.level, handle) : now.whole());
   }
   if (edit.reach == Reach::nodes) next.touched = nodes_of(edit.level, all);
 }
 
-// By a vector as it is seen in `now`.
-void Deformer::displace(State& next, const Posed& now, int level, Index handle, const Vector& by, Reach reach) const {
+// By a vector as it is seen, told in a frame.
+void Deformer::displace(State& next, int level, Index handle, const Vector& by, Reach reach,
+                        const SmallMatrix& frame) const {
   if (level == 0) {
     for (const Seat& seat : Handles(model_->shape(), model_->closed(), 0).seats(handle))
       next.pose.polygon.matrix().row(seat.point) += by.transpose();
@@ -287,7 +289,6 @@ void Deformer::displace(State& next, const Posed& now, int level, Index handle, 
   }
   Moves& all = next.pose.moves[static_cast<std::size_t>(level)];
   auto& moves = reach == Reach::curve ? all.field : all.own;
-  const SmallMatrix frame = reach == Reach::curve ? now.whole() : now.frame(level, handle);
   moves.try_emplace(handle, Vector::Zero(by.size())).first->second += untold(frame, by, level);
 }
 
@@ -308,10 +309,13 @@ Points Deformer::points_at(const Posed& posed, const std::vector<double>& parame
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const double position = model_->placement().position(parameters[k]), first = std::floor(position);
     const auto place = static_cast<Index>(first);
+    const bool between = position > first, together = between && place + 1 < count;
+    const Points ends = posed.places(model_->levels(), place, together ? 2 : 1);
     auto point = all.matrix().row(static_cast<Index>(k));
-    point = posed.places(model_->levels(), place, 1).matrix().row(0);
-    if (position > first)
-      point += (position - first) * (posed.places(model_->levels(), (place + 1) % count, 1).matrix().row(0) - point);
+    point = ends.matrix().row(0);
+    if (!between) continue;
+    const Points next = together ? Points() : posed.places(model_->levels(), 0, 1);  // a ring's first
+    point += (position - first) * ((together ? ends.matrix().row(1) : next.matrix().row(0)) - point);
   }
   return all;
 }
@@ -354,9 +358,14 @@ void Deformer::make(State& next, const Drag& edit) const {
   const Leash leash(shares, handles ? pins : std::map<Index, Vector>());
   const Posed before = posed();
   const Eigen::MatrixXd wanted = to_center(edit.places, model_->parts().center).matrix();
+  std::map<Index, SmallMatrix> frames;
+  for (const Index value : leash.values())
+    frames[value] = !handles          ? before.turn_at(edit.level, value / model_->shape().details_per_node())
+                    : edit.level == 0 ? before.whole()
+                                      : before.frame(edit.level, value);
   const auto left = [&](const Eigen::MatrixXd& ways) -> Eigen::MatrixXd {
     next.pose = state().pose;
-    for (const auto& [value, by] : leash.changes(ways)) lead(next, before, edit, value, by);
+    for (const auto& [value, by] : leash.changes(ways)) lead(next, edit, value, by, frames.at(value));
     return wanted - points_at(Posed(*next.base, next.pose, manner_), edit.parameters).matrix();
   };
   const double close = 2e-13 * (model_->parts().diagonal + wanted.cwiseAbs().maxCoeff());
@@ -367,11 +376,10 @@ void Deformer::make(State& next, const Drag& edit) const {
   if (handles) next.touched = nodes_of(edit.level, leash.values());
 }
 
-void Deformer::lead(State& next, const Posed& before, const Drag& edit, Index value, const Vector& by) const {
-  if (edit.lead == Lead::handles) return displace(next, before, edit.level, value, by, Reach::nodes);
+void Deformer::lead(State& next, const Drag& edit, Index value, const Vector& by, const SmallMatrix& frame) const {
+  if (edit.lead == Lead::handles) return displace(next, edit.level, value, by, Reach::nodes, frame);
   auto& details = next.pose.moves[static_cast<std::size_t>(edit.level)].details;
-  const SmallMatrix turn = before.turn_at(edit.level, value / model_->shape().details_per_node());
-  details.try_emplace(value, Vector::Zero(by.size())).first->second += untold(turn, by, edit.level);
+  details.try_emplace(value, Vector::Zero(by.size())).first->second += untold(frame, by, edit.level);
 }
 
 void Deformer::check_levels(const Levels& levels) const {

@@ -114,9 +114,9 @@ class Deformer {
   void make(State& next, const Drag& edit) const;
   void make(State& next, const Restyle& edit) const;
   void make(State& next, const Texture& edit) const;
-  void displace(State& next, const Posed& now, int level, Index handle, const Vector& by, Reach reach) const;
+  void displace(State& next, int level, Index handle, const Vector& by, Reach reach, const SmallMatrix& frame) const;
   void check_drag(const Drag& edit) const;
-  void lead(State& next, const Posed& before, const Drag& edit, Index value, const Vector& by) const;
+  void lead(State& next, const Drag& edit, Index value, const Vector& by, const SmallMatrix& frame) const;
   void require_vectors(const Points& vectors, Index count, const char* argument) const;
   Points points_at(const Posed& posed, const std::vector<double>& parameters) const;
   int checked_level(int level, int most) const;

@@ -231,12 +231,12 @@ Points Posed::off_of_children(const Node& node) const {
   return fine;
 }
 
-std::vector<Posed::Node> Posed::children(const Node& node) const {
+std::vector<Posed::Node> Posed::children(const Node& node, int begin, int end) const {
   const int n = shape().control_points();
   const Points off = off_of_children(node);
   const bool still = is_still(node) && off.matrix().isZero(0);
   std::vector<Node> all;
-  for (int i = 0; i < shape().maps(); ++i) {
+  for (int i = begin; i < end; ++i) {
     const Index child = node.node * shape().maps() + i;
     const PolygonView own = base_polygon(node.level + 1, child);
     Polygon polygon = own, own_off = off.polygon(i * shape().polygon_step(), n);
@@ -265,7 +265,13 @@ void Posed::walk_below(Node node, std::vector<SmallMatrix>& path, int level, Ind
       is_moved_below(node.level, node.node, level) || (manner_.follow == Follow::each && !is_still(node));
   if (node.level == level || !parts) return visit(node);
   path.push_back(node.turn);
-  for (Node& child : children(node)) {
+  // Those that hold a value of the run: child i holds its values and, joined, the next one's first.
+  const Index values = below / shape().maps() * shape().polygon_step();
+  const auto child_of = [&](Index value) {
+    return static_cast<int>(std::clamp<Index>((value - begin) / values, 0, shape().maps() - 1));
+  };
+  const int low = child_of(std::max<Index>(first - (shape().joined() ? 1 : 0), begin)), high = child_of(end - 1);
+  for (Node& child : children(node, low, high + 1)) {
     move(child, path);
     walk_below(std::move(child), path, level, first, end, visit);
   }
@@ -307,7 +313,7 @@ void Posed::write(const Node& node, int level, Index first, Points& out) const {
     }
   };
   // Some levels at once, then block by block: a block's lines stay in the cache, and blocks share the threads.
-  constexpr Index block = 1 << 12;
+  constexpr Index block = 1 << 13;
   int upper = node.level;
   Index nodes = 1;
   for (; upper < level && length(shape(), shape().nodes(level - upper)) > block; ++upper, nodes *= shape().maps())
@@ -354,7 +360,8 @@ SmallMatrix Posed::turn_at(int level, Index node) const {
   std::vector<SmallMatrix> path;
   while (at.level < level) {
     path.push_back(at.turn);
-    at = children(at)[static_cast<std::size_t>(node / shape().nodes(level - at.level - 1) % shape().maps())];
+    const auto child = static_cast<int>(node / shape().nodes(level - at.level - 1) % shape().maps());
+    at = children(at, child, child + 1).front();
     move(at, path);
   }
   return at.turn;

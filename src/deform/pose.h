@@ -92,7 +92,7 @@ class Posed {
   void find_off(Node& node) const;
   Points off_of_children(const Node& node) const;
   // The children of a node, their own level's moves not yet made.
-  std::vector<Node> children(const Node& node) const;
+  std::vector<Node> children(const Node& node, int begin, int end) const;  // of all, numbers begin … end - 1
   // Makes the moves of the node's own level. `path` holds the turns of the nodes above it, the root's first.
   void move(Node& node, const std::vector<SmallMatrix>& path) const;
   SmallMatrix own_turn(const Node& node, const SmallMatrix& handed) const;
