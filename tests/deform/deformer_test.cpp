@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <numbers>
+#include <numeric>
+
+#include <Eigen/Geometry>
 
 #include "deform/handles.h"
 #include "support.h"
@@ -144,6 +147,74 @@ TEST(Deformer, InTimeMovesAlongStraightLines) {
   styled.apply(Restyle{{0, model->levels() - 1, 0}, 0, 0, -1});
   less.apply(Restyle{{0, model->levels() - 1, 0}, 0.5, 0, -1});
   EXPECT_EQ(all(styled.at_time(0.5)), all(less));
+}
+
+// The same model with other control points, its details as they are.
+ModelPtr with_polygon(const Model& model, const Matrix& polygon) {
+  ModelParts parts = model.parts();
+  parts.polygon.matrix() = polygon;
+  return std::make_shared<Model>(std::move(parts));
+}
+
+Move moved_to(const Matrix& places, const Model& model) {
+  std::vector<Index> handles(static_cast<std::size_t>(places.rows()));
+  std::iota(handles.begin(), handles.end(), 0);
+  Move edit = move(0, handles, from_center(points_from(places), model.parts().center));
+  edit.places = true;
+  return edit;
+}
+
+// A straight control polygon in space leaves the turn about itself open: details take the least rotation, which turns
+// one direction to the other in their own plane (Rodrigues), and the growth.
+TEST(Deformer, TurnsLeastWhereAStraightPolygonLeavesItOpen) {
+  Random random(23);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Shape shape(Topology::joined, 4, 2);
+    const Eigen::Vector3d a = vectors(random, 1, 3).matrix().row(0).normalized(),
+                          b = vectors(random, 1, 3).matrix().row(0).normalized();
+    const Eigen::Vector4d along(-1, -0.25, 0.5, 0.75);
+    const double grown = 0.5 + trial % 4;
+    const ModelPtr model = with_polygon(*rough({casteljau(shape), false, 3}, random), along * a.transpose());
+    Deformer deformer(model);
+    deformer.apply(moved_to(grown * along * b.transpose(), *model));
+    const Eigen::Vector3d axis = a.cross(b);
+    Eigen::Matrix3d cross;
+    cross << 0, -axis(2), axis(1), axis(2), 0, -axis(0), -axis(1), axis(0), 0;
+    const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity() + cross + cross * cross / (1 + a.dot(b));
+    const ModelPtr snapshot = deformer.snapshot();
+    for (int level = 0; level < model->levels(); ++level) {
+      const Matrix wanted = grown * model->details(level).matrix() * turn.transpose();
+      // 1 + a·b: the turn is known the worse the nearer it is to a half turn.
+      EXPECT_LE((snapshot->details(level).matrix() - wanted).norm(), 1e-13 * wanted.norm() / (1 + a.dot(b)))
+          << trial << " level " << level;
+    }
+  }
+}
+
+TEST(Deformer, IsWellDefinedWhereControlPointsCoincide) {
+  Random random(24);
+  for (const Index dimension : {1, 2, 3, 4})
+    for (const auto turning : {Turning::similarity, Turning::rotation, Turning::linear}) {
+      const ModelPtr some = rough({casteljau(Shape(Topology::joined, 4, 2)), false, dimension}, random);
+      const Matrix point = Matrix::Constant(4, dimension, 0.5);
+      const ModelPtr model = with_polygon(*some, point);
+      Deformer deformer(model, {turning, Follow::moved});
+      deformer.apply(moved_to(3 * point, *model));  // a point to a point: a translation
+      const double close = 1e-13 * (1 + diagonal(all(deformer)));
+      const Matrix by = all(deformer).matrix() - all(Deformer(model)).matrix();
+      EXPECT_LE((by - Matrix::Constant(by.rows(), dimension, 1)).cwiseAbs().maxCoeff(), close);
+      deformer.apply(move(0, {1}, vectors(random, 1, dimension)));  // and apart
+      EXPECT_TRUE(all(deformer).matrix().allFinite());
+      EXPECT_TRUE(samples(*deformer.snapshot()).matrix().allFinite());
+      deformer.undo();
+      deformer.apply(move(2, {3}, vectors(random, 1, dimension)));
+      EXPECT_TRUE(all(deformer).matrix().allFinite());
+      // A whole polygon drawn together, and its finer handles then.
+      Deformer drawn(some, {turning, Follow::moved});
+      drawn.apply(moved_to(point, *some));
+      EXPECT_TRUE(all(drawn).matrix().allFinite());
+      EXPECT_TRUE(samples(*drawn.snapshot()).matrix().allFinite());
+    }
 }
 
 TEST(Deformer, ReplaysAllOrNothing) {
