@@ -2,10 +2,12 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "failure.h"
@@ -14,6 +16,8 @@
 
 namespace cli {
 namespace {
+
+const std::string random_texture = "random";
 
 // What a value may not say; bend() puts the option and the value before it.
 struct Unclear {
@@ -53,6 +57,9 @@ Number number(const std::string& text, const char* what) {
 
 double real(const std::string& text) { return number<double>(text, "a number"); }
 int level_of(const std::string& text) { return number<int>(text, "a level's number"); }
+int detail_level(const std::string& text) {
+  return number<int>(text, "a level of details, or levels: 3, 2-5, first2, last2, and ~1 after them");
+}
 
 struct Way {
   bool to = false;  // a place; else by so much
@@ -99,22 +106,34 @@ Handles handles_of(const std::string& text) {
 
 ifsm::MoveOptions how_of(const std::string& text) {
   ifsm::MoveOptions how;
+  bool falls = false, by_length = false;
   for (const auto& word : split(text, ',')) {
     const auto at = word.find('=');
     const std::string name = word.substr(0, at);
-    if (name == "length" || name == "curve") {
-      (name == "length" ? how.ruler = ifsm::Ruler::length, 0 : (how.reach = ifsm::Reach::curve, 0));
+    if (name == "length" && at == std::string::npos) {
+      how.ruler = ifsm::Ruler::length;
+      by_length = true;
+    } else if (name == "curve" && at == std::string::npos) {
+      how.reach = ifsm::Reach::curve;
     } else if ((name == "smooth" || name == "linear") && at != std::string::npos) {
+      if (std::exchange(falls, true)) throw Unclear{"smooth and linear do not go together, nor one of them twice."};
       how.falloff = name == "smooth" ? ifsm::Falloff::smooth : ifsm::Falloff::linear;
       how.radius = real(word.substr(at + 1));
     } else {
       throw Unclear{"'" + word + "' is none of smooth=RADIUS, linear=RADIUS, length, curve."};
     }
   }
+  if (by_length && !falls) throw Unclear{"length says what RADIUS is of smooth=RADIUS or linear=RADIUS; add one."};
   return how;
 }
 
-void move(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> marks_of(const Handles& handles, bool held) {
+  std::vector<Mark> marks;
+  for (const auto handle : handles.numbers) marks.push_back({handles.level, handle, 0, held});
+  return marks;
+}
+
+std::vector<Mark> move(ifsm::Deformer& deformer, const std::string& value) {
   const auto [what, how, told] = parted(value, '@');
   const auto [target, way] = aimed(what, deformer.describe().dimension);
   const Handles handles = handles_of(target);
@@ -124,9 +143,10 @@ void move(ifsm::Deformer& deformer, const std::string& value) {
   for (std::size_t k = 0; k < handles.numbers.size(); ++k)
     vectors.insert(vectors.end(), way.vector.begin(), way.vector.end());
   deformer.move(handles.level, handles.numbers, vectors, options);
+  return marks_of(handles, false);
 }
 
-void move_at(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> move_at(ifsm::Deformer& deformer, const std::string& value) {
   const auto [what, level, told] = parted(value, '@');
   const std::string details = "details=";
   const bool by_details = level.starts_with(details);
@@ -139,24 +159,32 @@ void move_at(ifsm::Deformer& deformer, const std::string& value) {
     ways.push_back(way);
   }
   places = deformer.evaluate(parameters);
+  std::vector<Mark> marks;
   auto place = places.begin();
-  for (const auto& way : ways)
-    for (const double coordinate : way.vector) {
-      *place = way.to ? coordinate : *place + coordinate;
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    bool held = !ways[k].to;
+    for (const double coordinate : ways[k].vector) {
+      held = held && coordinate == 0;
+      *place = ways[k].to ? coordinate : *place + coordinate;
       ++place;
     }
+    marks.push_back({-1, 0, parameters[k], held});
+  }
   deformer.drag(told ? level_of(by_details ? level.substr(details.size()) : level) : 0, parameters, places,
                 by_details ? ifsm::Lead::details : ifsm::Lead::handles);
+  return marks;
 }
 
-void pin(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> pin(ifsm::Deformer& deformer, const std::string& value) {
   const Handles handles = handles_of(value);
   deformer.pin(handles.level, handles.numbers);
+  return marks_of(handles, true);
 }
 
-void unpin(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> unpin(ifsm::Deformer& deformer, const std::string& value) {
   const Handles handles = handles_of(value);
   deformer.pin(handles.level, handles.numbers, false);
+  return {};
 }
 
 struct Levels {
@@ -174,16 +202,17 @@ Levels levels_of(const ifsm::Deformer& deformer, const Parted& said) {
     if (!range.starts_with(word)) return std::nullopt;
     const int count = number<int>(range.substr(word.size()), "a number of levels");
     if (count >= 1 && count <= all) return count;
-    throw Unclear{"'" + range + "': the model has " + std::to_string(all) + " levels of details."};
+    throw Unclear{"'" + range + "': the model has " + std::to_string(all) + " levels of details; give 1 to " +
+                  std::to_string(all) + "."};
   };
   if (const auto count = named("first"))
     levels.last = *count - 1;
   else if (const auto last = named("last"))
     levels.first = all - *last, levels.last = all - 1;
   else if (const auto dash = range.find('-'); dash != std::string::npos)
-    levels.first = level_of(range.substr(0, dash)), levels.last = level_of(range.substr(dash + 1));
+    levels.first = detail_level(range.substr(0, dash)), levels.last = detail_level(range.substr(dash + 1));
   else
-    levels.first = levels.last = level_of(range);
+    levels.first = levels.last = detail_level(range);
   return levels;
 }
 
@@ -192,19 +221,21 @@ void restyle(ifsm::Deformer& deformer, const Levels& levels, double scale, ifsm:
   deformer.restyle(levels.first, levels.last, scale, options);
 }
 
-void scale_details(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> scale_details(ifsm::Deformer& deformer, const std::string& value) {
   const Parted said = parted(value, '@');
   restyle(deformer, levels_of(deformer, said), real(said.first), {});
+  return {};
 }
 
-void turn_details(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> turn_details(ifsm::Deformer& deformer, const std::string& value) {
   const Parted said = parted(value, '@');
   ifsm::RestyleOptions options;
   options.angle = real(said.first) * std::numbers::pi / 180;
   restyle(deformer, levels_of(deformer, said), 1, options);
+  return {};
 }
 
-void mirror_details(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> mirror_details(ifsm::Deformer& deformer, const std::string& value) {
   const Parted said = parted(value, '@');
   const std::string axes = "xyzw";
   const auto axis = said.first.size() == 1 ? axes.find(said.first[0]) : std::string::npos;
@@ -214,19 +245,20 @@ void mirror_details(ifsm::Deformer& deformer, const std::string& value) {
   ifsm::RestyleOptions options;
   options.mirror = static_cast<int>(axis) + 1;
   restyle(deformer, levels_of(deformer, said), 1, options);
+  return {};
 }
 
-void texture(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> texture(ifsm::Deformer& deformer, const std::string& value) {
   const Parted said = parted(value, '@');
   const Levels levels = levels_of(deformer, said);
-  const std::string random = "random";
   ifsm::TextureOptions options;
   options.fade = levels.fade;
   ifsm::Model from;
-  if (said.first == random || said.first.starts_with(random + "=")) {
-    if (said.first != random) {
-      const auto numbers = split(said.first.substr(random.size() + 1), ',');
-      options.roughness = real(numbers[0]);
+  if (said.first == random_texture || said.first.starts_with(random_texture + "=")) {
+    if (said.first != random_texture) {
+      const auto numbers = split(said.first.substr(random_texture.size() + 1), ',');
+      const double roughness = real(numbers[0]);
+      options.roughness = roughness == 0 ? std::numeric_limits<double>::min() : roughness;  // 0 would be the default
       if (numbers.size() > 1) options.seed = number<std::uint64_t>(numbers[1], "a seed, a whole number");
       if (numbers.size() > 2) throw Unclear{"random takes a roughness and a seed: random=0.7,42."};
     }
@@ -235,9 +267,10 @@ void texture(ifsm::Deformer& deformer, const std::string& value) {
     options.from = &from;
   }
   deformer.texture(levels.first, levels.last, options);
+  return {};
 }
 
-void during(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> during(ifsm::Deformer& deformer, const std::string& value) {
   const std::map<std::string, ifsm::Easing> easings{{"smooth", ifsm::Easing::smooth},
                                                     {"linear", ifsm::Easing::linear},
                                                     {"in", ifsm::Easing::in},
@@ -248,21 +281,23 @@ void during(ifsm::Deformer& deformer, const std::string& value) {
   if (parts.size() == 3 && easings.count(parts[2]) == 0)
     throw Unclear{"'" + parts[2] + "' is none of smooth, linear, in, out."};
   deformer.time(real(parts[0]), real(parts[1]), parts.size() == 3 ? easings.at(parts[2]) : ifsm::Easing::smooth);
+  return {};
 }
 
-void edits(ifsm::Deformer& deformer, const std::string& value) {
+std::vector<Mark> edits(ifsm::Deformer& deformer, const std::string& value) {
   const auto bytes = read_file(value);
   try {
     deformer.replay({bytes.begin(), bytes.end()});
   } catch (const ifsm::Error& error) {
     throw Failure(Exit::Input, input_name(value) + ": " + error.what());
   }
+  return {};
 }
 
 }  // namespace
 
-void bend(ifsm::Deformer& deformer, const std::string& option, const std::string& value) {
-  using Make = void (*)(ifsm::Deformer&, const std::string&);
+std::vector<Mark> bend(ifsm::Deformer& deformer, const std::string& option, const std::string& value) {
+  using Make = std::vector<Mark> (*)(ifsm::Deformer&, const std::string&);
   static const std::map<std::string, Make> edits_by_name{{"move", move},
                                                          {"move-at", move_at},
                                                          {"pin", pin},
@@ -275,13 +310,21 @@ void bend(ifsm::Deformer& deformer, const std::string& option, const std::string
                                                          {"edits", edits}};
   const std::string told = "--" + option + " " + value + ": ";
   try {
-    edits_by_name.at(option)(deformer, value);
+    if (value.empty()) throw Unclear{"is empty; `ifsm deform --help` tells what it says."};
+    return edits_by_name.at(option)(deformer, value);
   } catch (const Unclear& unclear) {
     throw Failure(Exit::Usage, told + unclear.says);
   } catch (const ifsm::Error& error) {
     if (error.status == IFSM_ERROR_MEMORY) throw;
     throw Failure(Exit::Usage, told + error.what());
   }
+}
+
+std::string file_of_bend(const std::string& option, const std::string& value) {
+  if (option == "edits") return value;
+  const std::string source = parted(value, '@').first;
+  const bool random = source == random_texture || source.starts_with(random_texture + "=");
+  return option == "texture" && !random ? source : "";
 }
 
 }  // namespace cli

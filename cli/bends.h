@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <ifsm.hpp>
 
@@ -17,7 +18,17 @@ namespace cli {
 //   z, w texture         MODEL[@LEVELS], random[=H[,SEED]][@LEVELS] during          BEGIN,END[,EASING]            when
 //   the edits that follow take place edits           FILE                          edits that were kept
 //
-// Throws Failure{Usage} with the option and its value, Failure{Input} for files; the deformer is then as it was.
-void bend(ifsm::Deformer& deformer, const std::string& option, const std::string& value);
+// Throws Failure{Usage} with the option and its value, Failure{Input} for files; the deformer is then as it was. Gives
+// the points that were moved or held, for pictures.
+struct Mark {
+  int level = -1;  // of a handle; -1: a point of the curve
+  std::int64_t handle = 0;
+  double parameter = 0;
+  bool held = false;  // pinned, or kept where it is
+};
+std::vector<Mark> bend(ifsm::Deformer& deformer, const std::string& option, const std::string& value);
+
+// The file that such an edit reads; empty when it reads none.
+std::string file_of_bend(const std::string& option, const std::string& value);
 
 }  // namespace cli

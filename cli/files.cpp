@@ -243,14 +243,14 @@ void check_absent(const std::string& path, Existing existing) {
     fail_output(path, in_the_way);
 }
 
-void check_not_read(const std::string& output, const std::vector<std::string>& inputs) {
+void check_not_read(const std::string& output, const std::vector<std::string>& inputs, const char* option) {
   const auto target = destination(output);
   struct stat written_to, read_from;
   if (target.descriptor || ::stat(target.path.c_str(), &written_to) != 0 || !S_ISREG(written_to.st_mode)) return;
   for (const auto& input : inputs) {
     const int failed = input == "-" ? ::fstat(STDIN_FILENO, &read_from) : ::stat(input.c_str(), &read_from);
     if (failed == 0 && same_file(written_to, read_from))
-      throw Failure(Exit::Usage, "-o " + output + " is the file that is read" +
+      throw Failure(Exit::Usage, option + (" " + output) + " is the file that is read" +
                                      (input == output ? "" : " (" + input_name(input) + ")") +
                                      ", and would be replaced; name another file.");
   }

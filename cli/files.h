@@ -36,7 +36,7 @@ enum class Existing { Replaced, Refused };
 void check_absent(const std::string& path, Existing existing);
 
 // Throws Failure{Usage} when the output is one of the files that are read, under whatever name.
-void check_not_read(const std::string& output, const std::vector<std::string>& inputs);
+void check_not_read(const std::string& output, const std::vector<std::string>& inputs, const char* option = "-o");
 
 // The same for several files: all new files are complete before the first takes its name. When one cannot, those that
 // had theirs are removed again, unless they replaced others. No signal stops the taking of names half way.

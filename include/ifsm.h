@@ -1233,7 +1233,7 @@ typedef struct ifsm_texture_options {
   uint32_t struct_size;
   int32_t fade;     /* as in ifsm_restyle_options */
   ifsm_model from;  /* borrowed: of the same topology, n, N and dimension; {0}: random details */
-  double roughness; /* of random ones: H, from level to level sizes shrink by N^-H; 0: 0.5 */
+  double roughness; /* of random ones: H, from level to level sizes shrink by N^-H, -8 … 8; 0: 0.5 */
   double size;      /* root mean square length of those of the first level; 0: of the model's own there */
   uint64_t seed;    /* other seeds, other details */
 } ifsm_texture_options;
@@ -1307,7 +1307,8 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_crossings(ifsm_deformer deforme
                                                            int64_t *count);
 
 /* Handles first … first + number - 1 of a level, where they are; the finest level's are the curve's places.
- * points  [out] number × dimension doubles. Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, BUSY, MEMORY. Since 0.1. */
+ * points  [out] number × dimension doubles. Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, NUMERICAL (edits have led the
+ * curve out of the range of doubles), BUSY, MEMORY. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_points(ifsm_deformer deformer, int32_t level, int64_t first,
                                                         int64_t number, double *points, int64_t capacity,
                                                         int64_t *count);

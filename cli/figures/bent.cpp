@@ -54,8 +54,10 @@ plot::Panel bent_panel(const Moment& before, const Moment& after, int dimension,
   panel.line(line_of(before.curve, dimension, closed), faint, "before");
   panel.line(curve, bold, "after");
   const auto polygon = line_of(after.polygon, dimension, false);
-  panel.line(polygon, after_polygon, "control polygon");
-  panel.dots(polygon, 7, colours::blue);
+  if (polygon.size() > 1) panel.line(polygon, after_polygon, "control polygon");
+  panel.dots(polygon, 6, colours::blue);
+  if (!after.moved.empty()) panel.dots(line_of(after.moved, dimension, false), 8, colours::orange, "moved");
+  if (!after.held.empty()) panel.dots(line_of(after.held, dimension, false), 8, colours::ink, "held");
   return panel;
 }
 

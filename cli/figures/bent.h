@@ -11,6 +11,8 @@ namespace figures {
 struct Moment {
   std::vector<double> curve;
   std::vector<double> polygon;
+  std::vector<double> moved = {};  // points that edits move, and that they hold
+  std::vector<double> held = {};
 };
 
 struct Frame {

@@ -1,5 +1,7 @@
 #include "webp.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <webp/encode.h>
@@ -32,7 +34,7 @@ Animation::Animation(int width, int height) : width_(width), height_(height) {
   encoder_.reset(new Encoder{made});
 }
 
-void Animation::add(const Pixels& frame, int milliseconds) {
+void Animation::add(const Pixels& frame, double until) {
   WebPConfig config;
   WebPPicture picture;
   check(WebPConfigInit(&config) && WebPConfigLosslessPreset(&config, 6) && WebPPictureInit(&picture),
@@ -43,7 +45,7 @@ void Animation::add(const Pixels& frame, int milliseconds) {
   picture.argb = const_cast<std::uint32_t*>(frame.values.data());
   picture.argb_stride = width_;
   check(WebPAnimEncoderAdd(encoder_->encoder, &picture, now_, &config), "cannot encode a frame");
-  now_ += milliseconds;
+  now_ = std::max(now_ + 1, static_cast<int>(std::lround(1000 * until)));
 }
 
 std::string Animation::bytes() {

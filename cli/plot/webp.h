@@ -17,7 +17,7 @@ struct Pixels {
 class Animation {
  public:
   Animation(int width, int height);
-  void add(const Pixels& frame, int milliseconds);
+  void add(const Pixels& frame, double until);  // seconds from the begin
   std::string bytes();
 
  private:

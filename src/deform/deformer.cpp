@@ -77,8 +77,27 @@ void Deformer::apply(const Edit& edit) {
   State next = state();
   next.touched = {};
   std::visit([&](const auto& one) { make(next, one); }, edit);
+  require_finite(next.pose);
   next.log = std::make_shared<Logged>(Timed{edit, span_}, state().log);
   step_to(std::move(next));
+}
+
+void Deformer::require_finite(const Pose& pose) const {
+  bool finite = pose.polygon.matrix().allFinite();
+  const auto all = [&](const std::map<Index, Vector>& vectors) {
+    for (const auto& [key, vector] : vectors) finite = finite && vector.allFinite();
+  };
+  for (const Moves& moves : pose.moves) all(moves.own), all(moves.field), all(moves.details);
+  if (finite) return;
+  throw Error(Status::numerical, "deformer",
+              "The edits together move points beyond the range of doubles; move them by less.");
+}
+
+// What edits together have made of the curve is known when it is told.
+Points Deformer::told(Points points) {
+  if (points.matrix().allFinite()) return points;
+  throw Error(Status::numerical, "deformer",
+              "The edits have led the curve out of the range of doubles; undo some, or make them smaller.");
 }
 
 void Deformer::undo() {
@@ -121,7 +140,7 @@ std::optional<Span> Deformer::times() const {
 }
 
 Deformer Deformer::at_time(double time) const {
-  require_finite(&time, 1, "time");
+  core::require_finite(&time, 1, "time");
   Deformer frame = *this;  // states are shared
   frame.history_.resize(1);
   frame.now_ = 0;
@@ -299,7 +318,7 @@ void Deformer::require_vectors(const Points& vectors, Index count, const char* a
                     std::to_string(model_->dimension()) + ".")
         .needs(count * model_->dimension());
   for (Index axis = 0; axis < vectors.dimension(); ++axis)
-    require_finite(vectors.plane(axis).data(), vectors.count(), argument);
+    core::require_finite(vectors.plane(axis).data(), vectors.count(), argument);
 }
 
 // From the centre.
@@ -321,7 +340,7 @@ Points Deformer::points_at(const Posed& posed, const std::vector<double>& parame
 }
 
 Points Deformer::at(const std::vector<double>& parameters) const {
-  return from_center(points_at(posed(), parameters), model_->parts().center);
+  return told(from_center(points_at(posed(), parameters), model_->parts().center));
 }
 
 void Deformer::make(State& next, const Pin& edit) const {
@@ -396,14 +415,14 @@ void Deformer::check_levels(const Levels& levels) const {
 
 void Deformer::make(State& next, const Restyle& edit) const {
   check_levels(edit.levels);
-  require_finite(&edit.scale, 1, "scale");
+  core::require_finite(&edit.scale, 1, "scale");
   constexpr double most_scale = 1e12;  // beyond, what is left of the polygons below is rounding
   if (std::abs(edit.scale) > most_scale)
     throw Error(Status::range, "scale",
                 "scale is " + text_of(edit.scale) + "; give a factor from -1e12 to 1e12, or scale the whole model.")
         .with(edit.scale);
-  require_finite(&edit.angle, 1, "angle");
-  in_range(edit.mirror, -1, model_->dimension() - 1, "mirror");
+  core::require_finite(&edit.angle, 1, "angle");
+  in_range(edit.mirror + 1, 0, model_->dimension(), "mirror");  // as the C ABI and files count axes
   if (edit.angle != 0 && model_->dimension() == 1)
     throw Error(Status::range, "angle", "The curve has one dimension, and nothing to turn in: leave the angle at 0.")
         .with(edit.angle);
@@ -447,7 +466,13 @@ PointsPtr Deformer::texture(const Texture& edit, int level) const {
 
 void Deformer::check_texture(const Texture& edit) const {
   check_levels(edit.levels);
-  require_finite(&edit.roughness, 1, "roughness");
+  core::require_finite(&edit.roughness, 1, "roughness");
+  constexpr double most_roughness =
+      8;  // of measured curves: 0 … 1; beyond this, a level is nothing beside its neighbour
+  if (std::abs(edit.roughness) > most_roughness)
+    throw Error(Status::range, "roughness",
+                "roughness is " + text_of(edit.roughness) + "; give an exponent from -8 to 8, of a coast about 0.8.")
+        .with(edit.roughness);
   if (!(edit.size >= 0 && std::isfinite(edit.size)))
     throw Error(Status::range, "size", "size is " + text_of(edit.size) + "; give a length, or 0 for the curve's own.")
         .with(edit.size);
@@ -458,7 +483,8 @@ void Deformer::check_texture(const Texture& edit) const {
                   "borrowed from models of the same.");
     if (edit.from->levels() <= edit.levels.last)
       throw Error(Status::range, "last",
-                  "last is " + std::to_string(edit.levels.last) + "; from has levels 0 to " +
+                  "last is " + std::to_string(edit.levels.last) +
+                      "; the model that texture is taken from has levels 0 to " +
                       std::to_string(edit.from->levels() - 1) + ".")
           .with(edit.levels.last);
   }
@@ -483,7 +509,7 @@ void Deformer::check_window(int level, Index first, Index number) const {
 Points Deformer::places(int level, Index first, Index count) const {
   check_window(level, first, count);
   if (count == 0) return {model_->dimension(), 0};
-  return from_center(posed().places(level, first, count), model_->parts().center);
+  return told(from_center(posed().places(level, first, count), model_->parts().center));
 }
 
 Points Deformer::samples() const {
@@ -500,6 +526,10 @@ Deformer::Window Deformer::changed(int level) const {
   return run.first + run.count > all ? Window{0, all} : Window{run.first, run.count};
 }
 
-ModelPtr Deformer::snapshot() const { return posed().snapshot(); }
+ModelPtr Deformer::snapshot() const {
+  ModelPtr made = posed().snapshot();
+  told(core::samples(*made));
+  return made;
+}
 
 }  // namespace ifsm::core

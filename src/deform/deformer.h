@@ -57,7 +57,8 @@ class Deformer {
   // What a texture puts on a level, before its share: null where it does not reach.
   PointsPtr texture(const Texture& edit, int level) const;
 
-  // Places of a level, in the samples' coordinates: those that the last step may have changed are changed(level).
+  // Places of a level, in the samples' coordinates, or a numerical error when they have left the doubles' range: those
+  // that the last step may have changed are changed(level).
   Points places(int level, Index first, Index count) const;
   void check_window(int level, Index first, Index number) const;  // what places() refuses: "level", "first", "number"
   // Points of the finest polyline. Open: parameters 0 … 1; closed: any, modulo 1.
@@ -119,6 +120,8 @@ class Deformer {
   void lead(State& next, const Drag& edit, Index value, const Vector& by, const SmallMatrix& frame) const;
   void require_vectors(const Points& vectors, Index count, const char* argument) const;
   Points points_at(const Posed& posed, const std::vector<double>& parameters) const;
+  static Points told(Points points);
+  void require_finite(const Pose& pose) const;
   int checked_level(int level, int most) const;
   void check_levels(const Levels& levels) const;
   void check_texture(const Texture& edit) const;

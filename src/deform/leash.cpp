@@ -21,9 +21,9 @@ Leash::Leash(const std::vector<Shares>& shares, const std::map<Index, Vector>& h
   if (led == points) return;
   throw Error(
       Status::singular, "parameters",
-      "The " + std::to_string(points) +
-          " points cannot be led apart by what is free to move at this level: some depend on each other, or hang "
-          "on pins alone. Name points once, let pins go, or take a finer level.")
+      "What is free to move at this level can lead " + std::to_string(led) + " of the " + std::to_string(points) +
+          " points as they are told: the others are too near to them, or hang on pins, or are ends that no detail "
+          "moves. Name points once, let pins go, take a finer level, or lead by handles.")
       .with(static_cast<double>(points))
       .needs(led);
 }

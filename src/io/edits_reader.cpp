@@ -238,12 +238,14 @@ class Edits {
   std::string entry_;
 };
 
-template <class Choice>
-void require_same(const std::string& name, Choice own, const char* entry) {
-  if (choice<Choice>(name, entry) == own) return;
-  throw Error(Status::range, entry,
-              std::string("The edits were made with ") + entry + " \"" + name + "\", the deformer has \"" +
-                  std::string(name_of(own)) + "\"; replay them on a deformer of the same options.");
+void require_same_manner(const LogEntry& log, const Manner& own) {
+  const bool turns_alike = choice<Turning>(log.turning, "turning") == own.turning;
+  const bool follows_alike = choice<Follow>(log.follow, "follow") == own.follow;
+  if (turns_alike && follows_alike) return;
+  throw Error(Status::range, turns_alike ? "follow" : "turning",
+              "The edits were made with turning \"" + log.turning + "\" and follow \"" + log.follow +
+                  "\", not with \"" + std::string(name_of(own.turning)) + "\" and \"" +
+                  std::string(name_of(own.follow)) + "\" as they are to be made now; use the same.");
 }
 
 }  // namespace
@@ -255,9 +257,8 @@ std::vector<Timed> read_edits(std::span<const std::uint8_t> bytes, const Deforme
   if (const std::string own = fingerprint(model); log.model != own)
     throw Error(Status::shape, "model",
                 "The edits were made of another model (fingerprint " + printable(log.model) + ", this one's is " + own +
-                    "); replay them on a deformer of the model that they were made of.");
-  require_same(log.turning, deformer.manner().turning, "turning");
-  require_same(log.follow, deformer.manner().follow, "follow");
+                    "); make them on the model that they were made of.");
+  require_same_manner(log, deformer.manner());
   std::vector<Timed> edits;
   for (std::size_t i = 0; i < log.edits.size(); ++i)
     edits.push_back(Edits(model, "edits[" + std::to_string(i) + "]").timed(log.edits[i]));

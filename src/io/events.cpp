@@ -180,12 +180,13 @@ void require_no_nul(std::span<const std::uint8_t> bytes) {
 }  // namespace
 
 void read_events(std::span<const std::uint8_t> bytes, Events& events) {
-  if (bytes.empty()) throw wrong(Status::format, 0, "The file is empty; give the bytes of a saved model.");
+  if (bytes.empty()) throw wrong(Status::format, 0, "The file is empty; give the bytes of a saved one.");
   const bool json = is_json(bytes[0]);
   if (!json && !is_cbor(bytes[0]))
-    throw wrong(Status::format, 0,
-                "The first byte is " + std::to_string(bytes[0]) +
-                    ", with which neither JSON nor CBOR of a model begins; give the bytes of a saved model.")
+    throw wrong(
+        Status::format, 0,
+        "The first byte is " + std::to_string(bytes[0]) +
+            ", with which neither JSON nor CBOR begins as this library saves it; give the bytes of a saved file.")
         .with(bytes[0]);
   if (json) require_no_nul(bytes);
   Cursor cursor{bytes};

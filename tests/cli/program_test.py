@@ -505,6 +505,39 @@ class Deform(Program):
         self.assertEqual([name for name in self.names() if name.startswith("f-")], ["f-01.png", "f-02.png", "f-03.png"])
         self.assertNotEqual(self.file("f-01.png").read_bytes(), self.file("f-03.png").read_bytes())
 
+    def test_what_is_read_is_never_replaced(self):
+        model, edits, other = self.model(), self.file("e.json"), self.file("other.ifsm")
+        self.fine("deform", model, "--move", "2:+1,1", "--keep-edits", edits, "-q", "-o", other)
+        kept = {path: path.read_bytes() for path in (model, edits, other)}
+        for arguments in [("--edits", edits, "-o", edits), ("--texture", f"{other}@last2", "-o", other),
+                          ("--texture", f"{other}@last2", "-o", self.file("t.csv"), "--keep-edits", other),
+                          ("--edits", edits, "-o", self.file("t.csv"), "--keep-edits", edits),
+                          ("-o", self.file("t.csv"), "--keep-edits", model),
+                          ("-o", self.file("t.csv"), "--keep-edits", self.file("t.csv")),
+                          ("--frames", 3, "-o", self.file("q-%d.png"), "--keep-edits", self.file("q-2.png")),
+                          ("-o", self.file("t.csv"), "--keep-edits", "-"),
+                          ("-o", self.file("t.csv"), "--keep-edits", "")]:
+            with self.subTest(arguments=arguments):
+                self.refused(2, "ifsm: ", "deform", model, "-q", *arguments)
+        self.assertEqual(kept, {path: path.read_bytes() for path in kept})
+        self.assertEqual(self.names(), ["e.json", "other.ifsm", "ring.csv", "ring.ifsm"])
+
+    def test_edits_are_made_again_as_they_were_made(self):
+        bends, edits = ("--move", "2:+1,0", "--move", "1/3:+0,1"), self.file("e.json")
+        turned = ("--turning", "rotation", "--follow", "each")
+        wanted = self.points(*turned, *bends, "--keep-edits", edits)
+        self.assertNotEqual(wanted, self.points(*bends))
+        self.assertEqual(self.points("--edits", edits), wanted)
+        self.refused(3, ['"rotation" and follow "each"', '"similarity" and "moved"'], "deform", self.model(), "--edits",
+                     edits, "--turning", "similarity", "-o", self.file("x.csv"))
+
+    def test_a_curve_beyond_the_doubles_is_no_result(self):
+        far = ("--move", "0,1,2:+1.7e308,0")
+        for name in ("z.csv", "z.svg", "z.ifsm"):
+            self.refused(2, "beyond the range of doubles", "deform", self.model(), *far, *far, "-o", self.file(name))
+        self.refused(2, "roughness is -200", "deform", self.model(), "--texture", "random=-200", "-o", self.file("z.csv"))
+        self.assertEqual(self.names(), ["ring.csv", "ring.ifsm"])
+
     def test_crossings_that_edits_caused_are_told(self):
         tell = lambda *bends: json.loads(self.fine("deform", self.model(), *bends, "--json", "-q", "-o", self.file("b.csv")))
         self.assertEqual(tell()["crossings"], 0)
@@ -526,6 +559,11 @@ class Deform(Program):
                 ("--pin 1/x: 'x' is not a handle's number", "--pin", "1/x"),
                 ("--move 1/2:+1,1: handles[0], 2, is pinned", "--pin", "1/2", "--move", "1/2:+1,1"),
                 ("--scale-details x: 'x' is not a number", "--scale-details", "x"),
+                ("--scale-details 2@x: 'x' is not a level of details, or levels: 3, 2-5", "--scale-details", "2@x"),
+                ("--move 2:+1,1@length: length says what RADIUS is", "--move", "2:+1,1@length"),
+                ("--move 2:+1,1@smooth=1,linear=2: smooth and linear do not", "--move", "2:+1,1@smooth=1,linear=2"),
+                ("--move : is empty", "--move", ""),
+                ("--rate: '1e-5' is not a number from 0.01 to 1000", "--rate", "1e-5"),
                 ("--scale-details 2@last99: 'last99': the model has ", "--scale-details", "2@last99"),
                 ("--scale-details 2@5-3: last is 3", "--scale-details", "2@5-3"),
                 ("--mirror-details z: 'z' is no axis", "--mirror-details", "z"),
@@ -538,7 +576,10 @@ class Deform(Program):
                 self.refused(2, "ifsm: " + words, "deform", model, "-o", target, *bends)
         for words, output, *more in [("is an animation; add --frames", "b.webp"),
                                      ("--frames makes pictures", "b.ifsm", "--frames", 3),
-                                     ("names one file for 3 pictures; put %03d", "b.png", "--frames", 3)]:
+                                     ("--frames makes pictures, and --format", "b.webp", "--frames", 3, "--format", "json"),
+                                     ("put %d", "b-%s.png", "--frames", 3), ("put %d", "b-%d%d.png", "--frames", 3),
+                                     ("ends in none of .ifsm, .json", "b.jpg"),
+                                     ("names one file for 3 pictures; put %d", "b.png", "--frames", 3)]:
             self.refused(2, words, "deform", model, "--move", "2:+1,1", "-q", "-o", self.file(output), *more)
         self.refused(3, "none.ifsm", "deform", model, "--texture", self.file("none.ifsm"), "-o", target)
         self.assertEqual(self.names(), ["ring.csv", "ring.ifsm"])

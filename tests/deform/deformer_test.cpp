@@ -217,6 +217,24 @@ TEST(Deformer, IsWellDefinedWhereControlPointsCoincide) {
     }
 }
 
+TEST(Deformer, NeverTellsACurveBeyondTheRangeOfDoubles) {
+  Random random(25);
+  const ModelPtr model = rough({casteljau(Shape(Topology::joined, 4, 2)), false, 2}, random);
+  Deformer deformer(model);
+  const Points far = points_from(Matrix::Constant(1, 2, 1.7e308));
+  deformer.apply(move(0, {1}, far));
+  EXPECT_EQ(refusal([&] { deformer.apply(move(0, {1}, far)); }).status(), Status::numerical);
+  EXPECT_EQ(deformer.edits(), 1);
+  deformer.undo();
+  for (int k = 0; k < 26; ++k) deformer.apply(Restyle{{0, 0, 0}, 1e12, 0, -1});
+  EXPECT_EQ(refusal([&] { all(deformer); }).status(), Status::numerical);
+  EXPECT_EQ(refusal([&] { deformer.at({0.3}); }).status(), Status::numerical);
+  EXPECT_EQ(refusal([&] { deformer.snapshot(); }).status(), Status::numerical);
+  for (int k = 0; k < 26; ++k) deformer.undo();
+  EXPECT_EQ(all(deformer), all(Deformer(model)));
+  EXPECT_EQ(refusal([&] { deformer.apply(Texture{{0, 1, 0}, nullptr, -200, 0, 0}); }).argument(), "roughness");
+}
+
 TEST(Deformer, ReplaysAllOrNothing) {
   Random random(21);
   const ModelPtr model = rough({casteljau(Shape(Topology::joined, 3, 2)), false, 2}, random);
