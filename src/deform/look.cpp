@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "base/random.h"
 #include "curve/frames.h"
@@ -10,7 +11,7 @@ namespace ifsm::core {
 
 Look own_look(const Model& model) {
   const Index d = model.dimension();
-  return Look(static_cast<std::size_t>(model.levels()), {SmallMatrix::Identity(d, d), nullptr});
+  return Look(static_cast<std::size_t>(model.levels()), {identity(d), nullptr});
 }
 
 ModelPtr dressed(const Model& model, const Look& look) {
@@ -19,7 +20,7 @@ ModelPtr dressed(const Model& model, const Look& look) {
   bool changed = false;
   for (std::size_t level = 0; level < look.size(); ++level) {
     if (look[level].details) parts.details[level] = look[level].details;
-    const bool mapped = look[level].map != SmallMatrix::Identity(d, d);
+    const bool mapped = look[level].map != identity(d);
     changed = changed || mapped || look[level].details;
     if (!mapped) continue;
     auto details = std::make_shared<Points>(d, parts.details[level]->count());
@@ -38,14 +39,11 @@ PointsPtr borrowed_texture(const Model& model, int level, const Model& from) {
 }
 
 PointsPtr random_texture(const Model& model, int level, double size, std::uint64_t seed) {
-  auto texture = std::make_shared<Points>(model.dimension(), model.details(level).count());
-  // Two numbers at a time; of a vector, its coordinates follow each other.
-  const double each = size / std::sqrt(static_cast<double>(model.dimension()));
-  for (Index k = 0; k < texture->size(); k += 2) {
-    const auto pair = normal_pair(seed, static_cast<std::uint32_t>(level), static_cast<std::uint64_t>(k / 2));
-    for (Index i = k; i < std::min(k + 2, texture->size()); ++i)
-      texture->matrix()(i / model.dimension(), i % model.dimension()) = each * pair[static_cast<std::size_t>(i - k)];
-  }
+  const Index count = model.details(level).count(), d = model.dimension();
+  std::vector<double> numbers(static_cast<std::size_t>(count * d));  // of a vector, its coordinates follow each other
+  normal_numbers(seed, static_cast<std::uint32_t>(level), numbers);
+  auto texture = std::make_shared<Points>(Points::from_interleaved(numbers.data(), count, d));
+  texture->matrix() *= size / std::sqrt(static_cast<double>(d));
   return texture;
 }
 

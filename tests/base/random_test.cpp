@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+using ifsm::core::normal_numbers;
 using ifsm::core::normal_pair;
 using ifsm::core::philox;
 
@@ -27,6 +28,15 @@ TEST(NormalPairs, AreTheSameBitsOnEveryMachine) {
   EXPECT_EQ(normal_pair(0, 0, 0)[0], -0x1.497243147e87fp-1);
   EXPECT_EQ(normal_pair(0, 0, 0)[1], 0x1.809b321e61337p+0);
   EXPECT_EQ(normal_pair(42, 7, 1ULL << 40)[0], 0x1.e2ba843442161p+0);
+}
+
+TEST(NormalNumbers, AreThePairsOneAfterTheOther) {
+  for (const std::size_t count : {0, 1, 2, 63, 64, 65, 1001}) {
+    std::vector<double> numbers(count, -100);
+    normal_numbers(7, 3, numbers);
+    for (std::size_t k = 0; k < count; ++k)
+      ASSERT_EQ(numbers[k], normal_pair(7, 3, k / 2)[k % 2]) << count << ", " << k;
+  }
 }
 
 TEST(NormalPairs, DifferBySeedStreamAndIndex) {
