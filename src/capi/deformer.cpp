@@ -79,7 +79,7 @@ SegmentPair segments_of(const Polyline& polyline, const Crossing& crossing) {
 std::vector<Crossing> crossings_caused(const Deformer& deformer) {
   const Model& model = deformer.model();
   const Polyline before(model);
-  const Polyline after(deformer.places(model.levels(), 0, deformer.count(model.levels())), model.closed());
+  const Polyline after(deformer.now().places(model.levels(), 0, deformer.now().count(model.levels())), model.closed());
   std::set<SegmentPair> had;
   for (const Crossing& crossing : crossings(before)) had.insert(segments_of(before, crossing));
   std::vector<Crossing> caused = crossings(after);
@@ -278,9 +278,9 @@ ifsm_status ifsm_deformer_points(ifsm_deformer handle, int32_t level, int64_t fi
                                  int64_t capacity, int64_t* count) {
   return guarded(__func__, [&] {
     const Held deformer(handle);
-    deformer->check_window(level, first, number);
+    deformer->now().check_window(level, first, number);
     deliver(number * deformer->model().dimension(), output(points, capacity, "points"), required(count, "count"),
-            [&] { return deformer->places(level, first, number); });
+            [&] { return deformer->now().places(level, first, number); });
   });
 }
 
@@ -300,7 +300,7 @@ ifsm_status ifsm_deformer_samples(ifsm_deformer handle, double* points, int64_t 
     const Held deformer(handle);
     const Model& model = deformer->model();
     deliver(model.placement().samples() * model.dimension(), output(points, capacity, "points"),
-            required(count, "count"), [&] { return deformer->samples(); });
+            required(count, "count"), [&] { return deformer->now().samples(); });
   });
 }
 
@@ -311,7 +311,7 @@ ifsm_status ifsm_deformer_evaluate(ifsm_deformer handle, const double* parameter
     const auto at = parameters_of(parameters, parameter_count);
     require_parameters(deformer->model(), at);
     deliver(checked_product(parameter_count, deformer->model().dimension(), "parameter_count"),
-            output(points, capacity, "points"), required(count, "count"), [&] { return deformer->at(at); });
+            output(points, capacity, "points"), required(count, "count"), [&] { return deformer->now().at(at); });
   });
 }
 
@@ -319,6 +319,6 @@ ifsm_status ifsm_deformer_snapshot(ifsm_deformer handle, ifsm_model* model) {
   return guarded(__func__, [&] {
     const Held deformer(handle);
     required(model, "model");
-    issue(deformer->snapshot(), *model);
+    issue(deformer->now().snapshot(), *model);
   });
 }

@@ -122,8 +122,6 @@ Points carried(const FrameWalk& from, const FrameWalk& to, const Growth& growth,
   return result;
 }
 
-SmallMatrix identity(Index dimension) { return SmallMatrix::Identity(dimension, dimension); }
-
 // Walks down the old and the new model together; below `level` details are carried, above they are shared.
 ModelPtr rebuilt(const Model& model, int level, const Points& told) {
   ModelParts parts = model.parts();

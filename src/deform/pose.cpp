@@ -16,8 +16,6 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-SmallMatrix identity(Index dimension) { return SmallMatrix::Identity(dimension, dimension); }
-
 // out = L x, coordinate by coordinate and in one order, so that every way to a place gives it the same bits.
 void turned(const SmallMatrix& turn, const std::vector<const double*>& x, Index axis, Index count, double* out) {
   for (Index i = 0; i < count; ++i) out[i] = turn(axis, 0) * x[0][i];

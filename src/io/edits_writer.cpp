@@ -1,5 +1,6 @@
 #include <string>
 
+#include "deform/dressing.h"
 #include "io/edits.h"
 #include "io/edits_format.h"
 #include "io/fingerprint.h"
@@ -86,7 +87,7 @@ class EditsWriter {
     const int levels = random ? 0 : deformer_.model().levels();
     out_.key("details"), out_.array(levels);
     for (int level = 0; level < levels; ++level) {
-      const PointsPtr details = deformer_.texture(texture, level);
+      const PointsPtr details = core::texture(deformer_.model(), texture, level);
       out_.object(details ? 1 : 0);
       if (details) points("dense", *details);
       out_.end();

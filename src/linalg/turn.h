@@ -7,6 +7,7 @@
 namespace ifsm::core {
 
 using SmallMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 4, 4>;
+inline SmallMatrix identity(Eigen::Index dimension) { return SmallMatrix::Identity(dimension, dimension); }
 using PolygonView = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;  // a point a row
 
 // Root mean square distance of a polygon's points from their mean; 0 when they differ by rounding alone.

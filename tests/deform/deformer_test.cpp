@@ -19,15 +19,15 @@ TEST(Deformer, IsTheModelToTheBitBeforeAnyEdit) {
   for (const Subject& s : subjects(random)) {
     const ModelPtr model = rough(s, random);
     Deformer deformer(model);
-    EXPECT_EQ(deformer.samples(), samples(*model)) << name(*model);
+    EXPECT_EQ(deformer.now().samples(), samples(*model)) << name(*model);
     deformer.apply(move(1, {1}, Points(s.dimension, 1)));  // by nothing
     deformer.apply(move(0, {}, Points(s.dimension, 0)));
     deformer.apply(Restyle{{0, model->levels() - 1, 0}, 1, 0, -1});
     Move stay = move(2, {0, 1, 2}, Points(s.dimension, 3));
-    stay.vectors = deformer.places(2, 0, 3);
+    stay.vectors = deformer.now().places(2, 0, 3);
     stay.places = true;
     deformer.apply(stay);
-    EXPECT_EQ(deformer.samples(), samples(*model)) << name(*model);
+    EXPECT_EQ(deformer.now().samples(), samples(*model)) << name(*model);
   }
 }
 
@@ -71,7 +71,7 @@ TEST(Deformer, TakesVeryManyEdits) {
   Deformer deformer(model);
   for (int k = 0; k < 60'000; ++k) deformer.apply(Pin{1, {}, true});
   EXPECT_EQ(deformer.edits(), 60'000);
-  EXPECT_EQ(deformer.samples(), samples(*model));
+  EXPECT_EQ(deformer.now().samples(), samples(*model));
 }
 
 TEST(Span, SharesGrowFromNothingToExactlyAll) {
@@ -107,7 +107,7 @@ TEST(Deformer, InTimeBeginsAsTheModelAndEndsAsThePresentToTheBit) {
       deformer.time_by({static_cast<double>(step), step + 2.0, Easing::smooth});
       deformer.apply(any_edit(deformer, random));
     }
-    EXPECT_EQ(deformer.at_time(0).samples(), samples(*model)) << name(*model);
+    EXPECT_EQ(deformer.at_time(0).now().samples(), samples(*model)) << name(*model);
     EXPECT_EQ(all(deformer.at_time(7)), all(deformer)) << name(*model);
     // Continuous: a step of 2^-20 of a span moves no point by more than a small part of the curve.
     const Points before = all(deformer.at_time(3.5)), after = all(deformer.at_time(3.5 + 0x1p-20));
@@ -120,7 +120,7 @@ TEST(Deformer, InTimeMovesAlongStraightLines) {
   Random random(20);
   const ModelPtr model = rough({casteljau(Shape(Topology::joined, 4, 2)), false, 2}, random);
   Deformer deformer(model);
-  const Points start = deformer.places(0, 0, 4), by = vectors(random, 1, 2);
+  const Points start = deformer.now().places(0, 0, 4), by = vectors(random, 1, 2);
   deformer.time_by({0, 1, Easing::linear});
   deformer.apply(move(0, {1}, by));
   deformer.time_by({1, 2, Easing::linear});
@@ -130,17 +130,17 @@ TEST(Deformer, InTimeMovesAlongStraightLines) {
   const double close = 8 * epsilon * (largest(start) + largest(by) + largest(to.vectors));
   const Eigen::RowVectorXd a = start.matrix().row(1), b = a + by.matrix(), c = to.vectors.matrix();
   for (const double s : {0.25, 0.5, 0.75}) {
-    EXPECT_LE((deformer.at_time(s).places(0, 1, 1).matrix() - (a + s * (b - a))).norm(), close);
-    EXPECT_LE((deformer.at_time(1 + s).places(0, 1, 1).matrix() - (b + s * (c - b))).norm(), close);
+    EXPECT_LE((deformer.at_time(s).now().places(0, 1, 1).matrix() - (a + s * (b - a))).norm(), close);
+    EXPECT_LE((deformer.at_time(1 + s).now().places(0, 1, 1).matrix() - (b + s * (c - b))).norm(), close);
   }
   // A drag leads its point along a straight line as well; half a restyle scales by half as much.
   Deformer other(model);
   other.time_by({0, 1, Easing::linear});
-  const Points from = other.at({0.37});
+  const Points from = other.now().at({0.37});
   Points place = from;
   place.matrix().array() += 0.25;
   other.apply(drag(2, {0.37}, place, Lead::handles));
-  const Points half = other.at_time(0.5).at({0.37});
+  const Points half = other.at_time(0.5).now().at({0.37});
   EXPECT_LE((half.matrix().array() - from.matrix().array() - 0.125).matrix().norm(), 1e-12 * diagonal(start));
   Deformer styled(model), less(model);
   styled.time_by({0, 1, Easing::linear});
@@ -181,7 +181,7 @@ TEST(Deformer, TurnsLeastWhereAStraightPolygonLeavesItOpen) {
     Eigen::Matrix3d cross;
     cross << 0, -axis(2), axis(1), axis(2), 0, -axis(0), -axis(1), axis(0), 0;
     const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity() + cross + cross * cross / (1 + a.dot(b));
-    const ModelPtr snapshot = deformer.snapshot();
+    const ModelPtr snapshot = deformer.now().snapshot();
     for (int level = 0; level < model->levels(); ++level) {
       const Matrix wanted = grown * model->details(level).matrix() * turn.transpose();
       // 1 + a·b: the turn is known the worse the nearer it is to a half turn.
@@ -205,7 +205,7 @@ TEST(Deformer, IsWellDefinedWhereControlPointsCoincide) {
       EXPECT_LE((by - Matrix::Constant(by.rows(), dimension, 1)).cwiseAbs().maxCoeff(), close);
       deformer.apply(move(0, {1}, vectors(random, 1, dimension)));  // and apart
       EXPECT_TRUE(all(deformer).matrix().allFinite());
-      EXPECT_TRUE(samples(*deformer.snapshot()).matrix().allFinite());
+      EXPECT_TRUE(samples(*deformer.now().snapshot()).matrix().allFinite());
       deformer.undo();
       deformer.apply(move(2, {3}, vectors(random, 1, dimension)));
       EXPECT_TRUE(all(deformer).matrix().allFinite());
@@ -213,7 +213,7 @@ TEST(Deformer, IsWellDefinedWhereControlPointsCoincide) {
       Deformer drawn(some, {turning, Follow::moved});
       drawn.apply(moved_to(point, *some));
       EXPECT_TRUE(all(drawn).matrix().allFinite());
-      EXPECT_TRUE(samples(*drawn.snapshot()).matrix().allFinite());
+      EXPECT_TRUE(samples(*drawn.now().snapshot()).matrix().allFinite());
     }
 }
 
@@ -228,8 +228,8 @@ TEST(Deformer, NeverTellsACurveBeyondTheRangeOfDoubles) {
   deformer.undo();
   for (int k = 0; k < 26; ++k) deformer.apply(Restyle{{0, 0, 0}, 1e12, 0, -1});
   EXPECT_EQ(refusal([&] { all(deformer); }).status(), Status::numerical);
-  EXPECT_EQ(refusal([&] { deformer.at({0.3}); }).status(), Status::numerical);
-  EXPECT_EQ(refusal([&] { deformer.snapshot(); }).status(), Status::numerical);
+  EXPECT_EQ(refusal([&] { deformer.now().at({0.3}); }).status(), Status::numerical);
+  EXPECT_EQ(refusal([&] { deformer.now().snapshot(); }).status(), Status::numerical);
   for (int k = 0; k < 26; ++k) deformer.undo();
   EXPECT_EQ(all(deformer), all(Deformer(model)));
   EXPECT_EQ(refusal([&] { deformer.apply(Texture{{0, 1, 0}, nullptr, -200, 0, 0}); }).argument(), "roughness");
@@ -274,7 +274,8 @@ TEST(Deformer, LeavesJoinedCurvesInOnePiece) {
       for (int level = 1; level <= model->levels(); ++level) {
         const Index step = shape.polygon_step();
         for (Index node = 1; node < shape.nodes(level); ++node) {
-          const Points left = frame.places(level, node * step - 1, 2), right = frame.places(level, node * step, 1);
+          const Points left = frame.now().places(level, node * step - 1, 2),
+                       right = frame.now().places(level, node * step, 1);
           ASSERT_EQ(left.matrix().row(1), right.matrix().row(0)) << name(*model) << " level " << level;
         }
       }
@@ -291,7 +292,7 @@ TEST(Deformer, ChangesNothingOutsideTheWindowThatItTells) {
     for (int step = 0; step < 12; ++step) {
       std::vector<Points> before;
       for (int level = 0; level <= model->levels(); ++level)
-        before.push_back(deformer.places(level, 0, deformer.count(level)));
+        before.push_back(deformer.now().places(level, 0, deformer.now().count(level)));
       const bool back = step % 4 == 3;
       if (back)
         deformer.undo();
@@ -299,7 +300,7 @@ TEST(Deformer, ChangesNothingOutsideTheWindowThatItTells) {
         deformer.apply(any_edit(deformer, random));
       for (int level = 0; level <= model->levels(); ++level) {
         const auto window = deformer.changed(level);
-        const Points now = deformer.places(level, 0, deformer.count(level));
+        const Points now = deformer.now().places(level, 0, deformer.now().count(level));
         if (level == model->levels() && window.count < now.count() / 2) ++narrow;
         for (Index p = 0; p < now.count(); ++p)
           if (p < window.first || p >= window.first + window.count) {
@@ -337,7 +338,7 @@ TEST(Deformer, TheOrderOfGlobalEditsDoesNotMatterWhereTheyEndAlike) {
   for (const Subject& s : subjects(random)) {
     const ModelPtr model = rough(s, random);
     Deformer one(model), other(model);
-    if (one.count(0) == 1) continue;
+    if (one.now().count(0) == 1) continue;
     const Move a = move(0, {0}, vectors(random, 1, s.dimension)), b = move(0, {1}, vectors(random, 1, s.dimension));
     one.apply(a), one.apply(b);
     other.apply(b), other.apply(a);
@@ -352,9 +353,9 @@ TEST(Deformer, ScaledToNothingIsTheTruncatedModel) {
     for (int level = 0; level < model->levels(); ++level) {
       Deformer deformer(model);
       deformer.apply(Restyle{{level, model->levels() - 1, 0}, 0, 0, -1});
-      EXPECT_EQ(deformer.samples(), samples(*keep(*model, first_levels(*model, level)))) << name(*model);
+      EXPECT_EQ(deformer.now().samples(), samples(*keep(*model, first_levels(*model, level)))) << name(*model);
       deformer.apply(Restyle{{0, model->levels() - 1, 0}, 3, 0, -1});  // what is nothing stays nothing
-      EXPECT_EQ(deformer.snapshot()->details(level).matrix().cwiseAbs().maxCoeff(), 0);
+      EXPECT_EQ(deformer.now().snapshot()->details(level).matrix().cwiseAbs().maxCoeff(), 0);
     }
   }
 }
@@ -379,7 +380,7 @@ TEST(Deformer, StylesAreLinearInTheDetails) {
       parts.details[level] = details;
     }
     const Points wanted = samples(*std::make_shared<Model>(parts));
-    EXPECT_LE(distance(deformer.samples(), wanted), 1e-13 * (1 + largest(wanted))) << name(*model);
+    EXPECT_LE(distance(deformer.now().samples(), wanted), 1e-13 * (1 + largest(wanted))) << name(*model);
   }
 }
 
@@ -402,12 +403,12 @@ TEST(Deformer, FalloffTakesNeighboursAlong) {
           analyze(casteljau(Shape(Topology::joined, 5, 2)), random_curve(random, 65, 2, Kind::walk), closed);
       const int level = 3;
       Deformer deformer(model);
-      const Points before = deformer.places(level, 0, deformer.count(level));
+      const Points before = deformer.now().places(level, 0, deformer.now().count(level));
       Move edit = move(level, {1}, vectors(random, 1, 2), reach);
       edit.falloff = Falloff::linear;
       edit.radius = 4;
       deformer.apply(edit);
-      const Points now = deformer.places(level, 0, deformer.count(level));
+      const Points now = deformer.now().places(level, 0, deformer.now().count(level));
       const Index count = before.count();
       for (Index h = 0; h < count; ++h) {
         const Index away = closed ? std::min(std::abs(h - 1), count - std::abs(h - 1)) : std::abs(h - 1);
@@ -431,7 +432,7 @@ TEST(Deformer, FalloffByLengthMeasuresAlongTheCurve) {
   edit.ruler = Ruler::length;
   edit.radius = 4;
   deformer.apply(edit);
-  const Points now = deformer.places(2, 0, 5);
+  const Points now = deformer.now().places(2, 0, 5);
   const double weights[] = {15.0 * 15 / 256, 1, 7.0 * 7 / 256, 0, 0};  // at 1, 0, 3, 4, 5 of 4
   for (Index h = 0; h < 5; ++h) EXPECT_NEAR(now.matrix()(h, 1), stairs.matrix()(h, 1) + weights[h], 1e-14) << h;
 }
@@ -440,7 +441,7 @@ TEST(Deformer, HoldsPins) {
   Random random(9);
   const ModelPtr model = rough({casteljau(Shape(Topology::joined, 5, 2)), false, 2}, random);
   Deformer deformer(model);
-  const Points place = deformer.places(3, 7, 1);
+  const Points place = deformer.now().places(3, 7, 1);
   const Points still = all(deformer);
   deformer.apply(Pin{3, {7}, true});
   EXPECT_EQ(all(deformer), still);
@@ -449,13 +450,13 @@ TEST(Deformer, HoldsPins) {
   near.falloff = Falloff::smooth;
   near.radius = 5;
   deformer.apply(near);
-  EXPECT_EQ(deformer.places(3, 7, 1), place);
+  EXPECT_EQ(deformer.now().places(3, 7, 1), place);
   const Error refused = refusal([&] { deformer.apply(move(3, {2, 7}, vectors(random, 2, 2))); });
   EXPECT_EQ(refused.argument(), "handles");
   EXPECT_EQ(refused.index(), 1);
   EXPECT_EQ(refused.value(), 7);
   deformer.apply(Pin{3, {7}, false});
-  EXPECT_NE(deformer.places(3, 7, 1), place);  // where it would have been
+  EXPECT_NE(deformer.now().places(3, 7, 1), place);  // where it would have been
 }
 
 TEST(Deformer, DragsPointsOfTheCurveToTheirPlaces) {
@@ -471,12 +472,13 @@ TEST(Deformer, DragsPointsOfTheCurveToTheirPlaces) {
         // Level 0 has few handles, and n = 2 fewer details: as many points as they can lead.
         const std::size_t most = level > 0 ? 4 : 1;
         const std::vector<double> some(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(most));
-        Points places = deformer.at(some);
+        Points places = deformer.now().at(some);
         places.matrix() += 0.1 * vectors(random, places.count(), s.dimension).matrix();
         deformer.apply(drag(level, some, places, lead));
-        EXPECT_LE(distance(deformer.at(some), places), 1e-12 * (model->parts().diagonal + largest(places)))
+        EXPECT_LE(distance(deformer.now().at(some), places), 1e-12 * (model->parts().diagonal + largest(places)))
             << name(*model) << " level " << level << " lead " << static_cast<int>(lead);
-        EXPECT_LE(distance(samples(*deformer.snapshot()), deformer.samples()), 1e-12 * (1 + largest(places)));
+        EXPECT_LE(distance(samples(*deformer.now().snapshot()), deformer.now().samples()),
+                  1e-12 * (1 + largest(places)));
       }
   }
 }
@@ -491,22 +493,22 @@ TEST(Deformer, DragsByTheLeastChange) {
     const int level = 2;
     const std::vector<double> at{0.2, 0.21, 0.6};
     Deformer deformer(model, still);
-    const Index handles = deformer.count(level);
+    const Index handles = deformer.now().count(level);
     Matrix rows(3, handles);
     for (Index h = 0; h < handles; ++h) {
       Deformer moved(model, still);
       Points unit(s.dimension, 1);
       unit.matrix()(0, 0) = 1;
       moved.apply(move(level, {h}, unit));
-      rows.col(h) = moved.at(at).matrix().col(0) - deformer.at(at).matrix().col(0);
+      rows.col(h) = moved.now().at(at).matrix().col(0) - deformer.now().at(at).matrix().col(0);
     }
     const Matrix ways = 0.1 * vectors(random, 3, s.dimension).matrix();
     const Matrix wanted = least_squares(rows, ways);
-    Points places = deformer.at(at);
+    Points places = deformer.now().at(at);
     places.matrix() += ways;
-    const Points before = deformer.places(level, 0, handles);
+    const Points before = deformer.now().places(level, 0, handles);
     deformer.apply(drag(level, at, places, Lead::handles));
-    const Matrix by = deformer.places(level, 0, handles).matrix() - before.matrix();
+    const Matrix by = deformer.now().places(level, 0, handles).matrix() - before.matrix();
     EXPECT_LE((by - wanted).cwiseAbs().maxCoeff(), 1e-10 * (1 + largest(before))) << name(*model);
   }
 }
@@ -516,13 +518,13 @@ TEST(Deformer, DragsLeavePinsAndPointsThatAreToStay) {
   const ModelPtr model = rough({casteljau(Shape(Topology::joined, 5, 2)), false, 2}, random);
   Deformer deformer(model);
   deformer.apply(Pin{3, {14}, true});
-  const Points pinned = deformer.places(3, 14, 1);
+  const Points pinned = deformer.now().places(3, 14, 1);
   const std::vector<double> at{0.4, 0.45};
-  Points places = deformer.at(at);
+  Points places = deformer.now().at(at);
   places.matrix().row(1) += Eigen::RowVector2d(0.3, -0.2);
   deformer.apply(drag(3, at, places, Lead::handles));
-  EXPECT_EQ(deformer.places(3, 14, 1), pinned);
-  EXPECT_LE(distance(deformer.at(at), places), 1e-12 * (1 + largest(places)));
+  EXPECT_EQ(deformer.now().places(3, 14, 1), pinned);
+  EXPECT_LE(distance(deformer.now().at(at), places), 1e-12 * (1 + largest(places)));
 }
 
 TEST(Deformer, RefusesDragsThatContradictEachOther) {
@@ -533,7 +535,7 @@ TEST(Deformer, RefusesDragsThatContradictEachOther) {
   const Points before = all(deformer);
   Points two = vectors(random, 2, 2);
   std::vector<Index> every;
-  for (Index h = 0; h < deformer.count(1); ++h) every.push_back(h);
+  for (Index h = 0; h < deformer.now().count(1); ++h) every.push_back(h);
   EXPECT_EQ(refusal([&] { deformer.apply(drag(1, {0.3, 0.3}, two, Lead::handles)); }).status(), Status::singular);
   EXPECT_EQ(refusal([&] { deformer.apply(drag(1, {0.3, 1.1}, two, Lead::handles)); }).index(), 1);
   EXPECT_EQ(refusal([&] { deformer.apply(drag(1, {0.3}, two, Lead::handles)); }).argument(), "places");
@@ -553,9 +555,10 @@ TEST(Deformer, BorrowsTexture) {
     const ModelPtr model = rough(s, random);
     Deformer deformer(model);
     deformer.apply(Texture{{0, model->levels() - 1, 0}, model, 0, 0, 0});  // its own
-    EXPECT_LE(distance(deformer.samples(), samples(*model)), 1e-12 * (1 + largest(samples(*model)))) << name(*model);
+    EXPECT_LE(distance(deformer.now().samples(), samples(*model)), 1e-12 * (1 + largest(samples(*model))))
+        << name(*model);
     // Texture that lies along another curve lies along this one as it did: similar models have the same.
-    if (s.dimension != 2 || deformer.count(0) == 1) continue;  // a point lies no way
+    if (s.dimension != 2 || deformer.now().count(0) == 1) continue;  // a point lies no way
     Points turned = samples(*model);
     for (Index k = 0; k < turned.count(); ++k) {
       const Eigen::RowVector2d p = samples(*model).matrix().row(k);
@@ -563,7 +566,7 @@ TEST(Deformer, BorrowsTexture) {
     }
     Deformer other(model);
     other.apply(Texture{{2, model->levels() - 1, 0}, analyze(s.filter, turned, s.closed), 0, 0, 0});
-    EXPECT_LE(distance(other.samples(), samples(*model)), 1e-11 * (1 + largest(samples(*model)))) << name(*model);
+    EXPECT_LE(distance(other.now().samples(), samples(*model)), 1e-11 * (1 + largest(samples(*model)))) << name(*model);
   }
 }
 
@@ -572,7 +575,7 @@ TEST(Deformer, MakesTextureOfTheRoughnessAsked) {
   const ModelPtr model = rough({casteljau(Shape(Topology::joined, 2, 2)), false, 2}, random, 4097);
   Deformer deformer(model);
   deformer.apply(Texture{{3, model->levels() - 1, 0}, nullptr, 0.8, 0.25, 42});
-  const ModelPtr made = deformer.snapshot();
+  const ModelPtr made = deformer.now().snapshot();
   for (int level = 3; level < model->levels(); ++level) {
     const double size = texture_size(made->details(level)), wanted = 0.25 * std::pow(2, -0.8 * (level - 3));
     // The mean square of k pairs of normals: relative deviation 1/sqrt(2 k) of the size, five of them.
@@ -636,7 +639,7 @@ TEST(Deformer, RefusesWhatItCannotDoAndStaysAsItWas) {
   EXPECT_EQ(refusal([&] { deformer.go_to("nowhere"); }).argument(), "name");
   EXPECT_EQ(refusal([&] { deformer.redo(); }).status(), Status::range);
   EXPECT_EQ(refusal([&] { Deformer(model).undo(); }).status(), Status::range);
-  EXPECT_EQ(refusal([&] { deformer.places(1, 8, 2); }).argument(), "number");
+  EXPECT_EQ(refusal([&] { deformer.now().places(1, 8, 2); }).argument(), "number");
 }
 
 TEST(Deformer, RefusesMovesBelowAPointAndNotAbove) {

@@ -54,7 +54,7 @@ inline Move move(int level, std::vector<Index> handles, Points by, Reach reach =
 
 inline Points all(const Deformer& deformer) {
   const int finest = deformer.model().levels();
-  return deformer.places(finest, 0, deformer.count(finest));
+  return deformer.now().places(finest, 0, deformer.now().count(finest));
 }
 
 inline Drag drag(int level, std::vector<double> parameters, Points places, Lead lead) {
@@ -78,18 +78,18 @@ inline Edit any_edit(const Deformer& deformer, Random& random) {
     case 5:
       if (model.shape().joined()) {
         const double t = std::uniform_real_distribution<double>()(random);
-        Points place = deformer.at({t});
+        Points place = deformer.now().at({t});
         place.matrix() += 0.05 * vectors(random, 1, model.dimension()).matrix();
         return drag(static_cast<int>(uniform(random, 0, 3)), {t}, place, Lead::details);
       }
       [[fallthrough]];
     case 0: return Restyle{levels(), 1 + 0.3 * normal(random), model.dimension() > 1 ? 0.2 : 0.0, -1};
     case 1: return Texture{levels(), nullptr, 0.7, 0, 5};
-    case 2: return move(0, {uniform(random, 0, deformer.count(0) - 1)}, vectors(random, 1, model.dimension()));
+    case 2: return move(0, {uniform(random, 0, deformer.now().count(0) - 1)}, vectors(random, 1, model.dimension()));
     default: {
       const int level = static_cast<int>(uniform(random, 1, model.levels()));
-      Move edit = move(level, {uniform(random, 0, deformer.count(level) - 1)}, vectors(random, 1, model.dimension()),
-                       uniform(random, 0, 1) ? Reach::nodes : Reach::curve);
+      Move edit = move(level, {uniform(random, 0, deformer.now().count(level) - 1)},
+                       vectors(random, 1, model.dimension()), uniform(random, 0, 1) ? Reach::nodes : Reach::curve);
       if (uniform(random, 0, 1)) {
         edit.falloff = Falloff::smooth;
         edit.radius = 2.5;

@@ -98,7 +98,7 @@ struct Small {
     Move bend = move(0, {1}, vectors(random, 1, 2));
     deformer.apply(bend);
     deformer.apply(Pin{1, {0, 2}, true});
-    Points place = deformer.at({0.4});
+    Points place = deformer.now().at({0.4});
     place.matrix().array() += 0.01;
     deformer.apply(drag(1, {0.4}, place, Lead::details));
     deformer.apply(Restyle{{0, 1, 0}, 0.5, 0.25, 1});
