@@ -144,7 +144,7 @@ ModelPtr found_within(const Model& model, double bound, Resolve how, Distance di
 }  // namespace
 
 void require_bound(double bound, double diagonal, const char* argument) {
-  require_finite(&bound, 1, argument);
+  require_finite(bound, argument);
   const double least = 1e-12 * diagonal;
   if (bound >= least || !std::isfinite(least)) return;  // analysis refuses such curves
   throw Error(Status::range, argument,

@@ -1205,7 +1205,7 @@ enum {
  * parameters    0 … 1 (closed: any, modulo 1), no two of them one point
  * places        place_count = parameter_count × dimension doubles
  *
- * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, SHAPE (a square model), SINGULAR (the level cannot lead the points
+ * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, SHAPE, SINGULAR (the level cannot lead the points
  * apart), NUMERICAL (nodes turn so much that no end was found), BUSY, MEMORY. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_drag(ifsm_deformer deformer, int32_t level, int32_t lead,
                                                       const double *parameters, int64_t parameter_count,

@@ -105,6 +105,8 @@ void check_arguments(const DeformArguments& arguments) {
     throw Failure(Exit::Usage, "--width, --height: a picture of a .webp has at most " + std::to_string(most_film_size) +
                                    " pixels a side.");
   if (kind == Kind::Model) refuse_binary_on_terminal(arguments.output, format_of(arguments.output, arguments.format));
+  if (!arguments.bends.empty() && arguments.bends.back().option == "during")
+    throw Failure(Exit::Usage, "--during " + arguments.bends.back().value + ": say it before the edits that it times.");
   std::vector<std::string> inputs{arguments.model};
   for (const auto& [option, value] : arguments.bends)
     if (const auto file = file_of_bend(option, value); !file.empty()) inputs.push_back(file);

@@ -26,9 +26,9 @@ Error&& Error::needs(std::int64_t required) && {
 
 std::int64_t in_range(std::int64_t value, std::int64_t low, std::int64_t high, const char* argument) {
   if (low <= value && value <= high) return value;
-  throw Error(Status::range, argument,
-              std::string(argument) + " is " + std::to_string(value) + "; give a value from " + std::to_string(low) +
-                  " to " + std::to_string(high) + ".")
+  const std::string allowed = low < high ? "give a value from " + std::to_string(low) + " to " + std::to_string(high)
+                                         : std::to_string(low) + " is the only one there is";
+  throw Error(Status::range, argument, std::string(argument) + " is " + std::to_string(value) + "; " + allowed + ".")
       .with(static_cast<double>(value));
 }
 
@@ -40,6 +40,12 @@ void require_finite(const double* values, std::int64_t count, const char* argume
                       "; every value must be finite: remove or replace it.")
           .at(i)
           .with(values[i]);
+}
+
+void require_finite(double value, const char* argument) {
+  if (std::isfinite(value)) return;
+  throw Error(Status::not_finite, argument, std::string(argument) + " is " + text_of(value) + "; give a finite number.")
+      .with(value);
 }
 
 std::int64_t checked_product(std::int64_t a, std::int64_t b, const char* argument) {

@@ -60,6 +60,7 @@ std::int64_t in_range(std::int64_t value, std::int64_t low, std::int64_t high, c
 
 // The first of `count` doubles that is not finite is an error with its index.
 void require_finite(const double* values, std::int64_t count, const char* argument);
+void require_finite(double value, const char* argument);  // one alone: without an index
 
 // a * b, or a limit error when it leaves 2^62: sizes are checked before they are multiplied.
 std::int64_t checked_product(std::int64_t a, std::int64_t b, const char* argument);

@@ -148,7 +148,7 @@ ifsm_status ifsm_deformer_move(ifsm_deformer handle, int32_t level, const int64_
     edit.falloff = choice(options.falloff, Falloff::smooth, "falloff");
     edit.ruler = choice(options.ruler, Ruler::length, "ruler");
     in_range(options.reserved, 0, 0, "reserved");
-    require_finite(&options.radius, 1, "radius");
+    require_finite(options.radius, "radius");
     edit.radius = options.radius;
     deformer->apply(edit);
   });
@@ -199,7 +199,7 @@ ifsm_status ifsm_deformer_texture(ifsm_deformer handle, int32_t first, int32_t l
   return guarded(__func__, [&] {
     const Held deformer(handle);
     const ifsm_texture_options options = read_options(given);
-    require_finite(&options.size, 1, "size");
+    require_finite(options.size, "size");
     Texture edit{{first, last, options.fade},
                  borrow_if_any(options.from, "from"),
                  options.roughness,

@@ -53,7 +53,7 @@ FitSamples samples_of(const ifsm_fit_samples& given, int64_t dimension, const st
 
 Loss loss_of(const ifsm_fit_curve_options& given) {
   const auto kind = choice(given.loss, LossKind::tukey, "loss");
-  require_finite(&given.loss_scale, 1, "loss_scale");
+  require_finite(given.loss_scale, "loss_scale");
   return {kind, kind == LossKind::squares ? 1 : given.loss_scale};
 }
 

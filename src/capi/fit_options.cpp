@@ -7,7 +7,7 @@
 namespace ifsm::core {
 
 double positive_or(double value, double otherwise, const char* argument) {
-  require_finite(&value, 1, argument);
+  require_finite(value, argument);
   if (value == 0) return otherwise;
   if (value > 0) return value;
   throw Error(Status::range, argument,

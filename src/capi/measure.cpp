@@ -26,7 +26,7 @@ constexpr int32_t most_levels = 40;
 
 bool by_count(int64_t points, double spacing) {
   in_range(points, 0, most_points, "points");
-  require_finite(&spacing, 1, "spacing");
+  require_finite(spacing, "spacing");
   if ((points == 0) != (spacing == 0)) return points != 0;
   throw Error(Status::range, "spacing",
               "points is " + std::to_string(points) + " and spacing " + text_of(spacing) +
@@ -141,7 +141,7 @@ ifsm_status ifsm_model_curvature(ifsm_model handle, double scale, const double* 
                                  double* curvatures, int64_t capacity, int64_t* count) {
   return guarded(__func__, [&] {
     const auto model = borrow(handle);
-    require_finite(&scale, 1, "scale");
+    require_finite(scale, "scale");
     const auto given = input(parameters, parameter_count, "parameters", "parameter_count");
     deliver(given.count, output(curvatures, capacity, "curvatures"), required(count, "count"), [&] {
       return curvature(Polyline(*model), {given.begin(), given.end()}, scale);

@@ -36,7 +36,7 @@ Kept kept_details(const Model& model, const ifsm_keep_options& options) {
   switch (options.rule) {
     case IFSM_KEEP_LEVELS: return first_levels(model, options.count);
     case IFSM_KEEP_COUNT: return most_significant(model, options.count);
-    default: require_finite(&options.threshold, 1, "threshold"); return above(model, options.threshold);
+    default: require_finite(options.threshold, "threshold"); return above(model, options.threshold);
   }
 }
 
@@ -170,7 +170,7 @@ ifsm_status ifsm_model_address(ifsm_model handle, double parameter, int32_t leng
   return guarded(__func__, [&] {
     const auto model = borrow(handle);
     in_range(length, 1, longest_address, "length");
-    require_finite(&parameter, 1, "parameter");
+    require_finite(parameter, "parameter");
     if (!model->closed() && !(parameter >= 0 && parameter <= 1))
       throw Error(Status::range, "parameter",
                   "parameter is " + text_of(parameter) + "; an open curve's run from 0 to 1.")

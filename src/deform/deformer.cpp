@@ -78,7 +78,7 @@ std::optional<Span> Deformer::times() const {
 }
 
 Deformer Deformer::at_time(double time) const {
-  require_finite(&time, 1, "time");
+  require_finite(time, "time");
   Deformer frame = *this;  // steps are shared
   frame.history_.resize(1);
   frame.at_ = 0;

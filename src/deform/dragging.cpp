@@ -12,9 +12,6 @@ namespace {
 
 void check(const State& now, const Drag& edit) {
   const Model& model = *now.model;
-  if (!model.shape().joined())
-    throw Error(Status::shape, "deformer",
-                "The model is square: its places are means of several polygons. Move its handles instead.");
   in_range(edit.level, 0, edit.lead == Lead::details ? model.levels() - 1 : model.levels(), "level");
   require_parameters(model, edit.parameters);
   require_vectors(model, edit.places, static_cast<Index>(edit.parameters.size()), "places");

@@ -6,8 +6,7 @@
 
 namespace ifsm::core {
 
-// The state after the edit. Errors name the argument: "deformer" (the model is square), "level", "parameters",
-// "places".
+// The state after the edit. Errors name the argument: "level", "parameters", "places".
 State after(const State& now, const Drag& edit);
 
 // A share of it: to that part of the straight way.

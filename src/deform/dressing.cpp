@@ -34,13 +34,13 @@ void check(const Model& model, const Levels& levels) {
 
 void check(const Model& model, const Restyle& edit) {
   check(model, edit.levels);
-  require_finite(&edit.scale, 1, "scale");
+  require_finite(edit.scale, "scale");
   constexpr double most_scale = 1e12;  // beyond, what is left of the polygons below is rounding
   if (std::abs(edit.scale) > most_scale)
     throw Error(Status::range, "scale",
                 "scale is " + text_of(edit.scale) + "; give a factor from -1e12 to 1e12, or scale the whole model.")
         .with(edit.scale);
-  require_finite(&edit.angle, 1, "angle");
+  require_finite(edit.angle, "angle");
   in_range(edit.mirror + 1, 0, model.dimension(), "mirror");  // as the C ABI and files count axes
   if (edit.angle != 0 && model.dimension() == 1)
     throw Error(Status::range, "angle", "The curve has one dimension, and nothing to turn in: leave the angle at 0.")
@@ -75,7 +75,7 @@ void check_told(const Model& model, const std::vector<PointsPtr>& told) {
 
 void check(const Model& model, const Texture& edit) {
   check(model, edit.levels);
-  require_finite(&edit.roughness, 1, "roughness");
+  require_finite(edit.roughness, "roughness");
   constexpr double most_roughness = 8;  // of measured curves: 0 … 1; beyond it a level is nothing beside its neighbour
   if (std::abs(edit.roughness) > most_roughness)
     throw Error(Status::range, "roughness",

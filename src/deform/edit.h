@@ -40,7 +40,7 @@ struct Pin {
 };
 
 // Points of the curve, at parameters, led to places by the least change (sum of squares) of a level: of its handles,
-// the nodes that hold them turning as ever, or of its details, which turn nothing. Pinned handles stay. Joined models.
+// the nodes that hold them turning as ever, or of its details, which turn nothing. Pinned handles stay.
 enum class Lead : std::int32_t { handles = 0, details = 1 };
 struct Drag {
   int level = 0;

@@ -39,6 +39,10 @@ void check(const State& now, const Move& edit) {
     throw Error(Status::range, "radius",
                 "radius is " + text_of(edit.radius) + "; a falloff reaches some way: give more than 0.")
         .with(edit.radius);
+  if (edit.falloff == Falloff::none && edit.radius != 0)
+    throw Error(Status::range, "radius",
+                "radius is " + text_of(edit.radius) + " without a falloff; choose one, or leave the radius 0.")
+        .with(edit.radius);
   const auto& pins = now.pose.moves[static_cast<std::size_t>(edit.level)].pins;
   for (std::size_t i = 0; i < edit.handles.size(); ++i)
     if (pins.contains(edit.handles[i]))

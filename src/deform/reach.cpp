@@ -1,7 +1,6 @@
 #include "deform/reach.h"
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 
 #include "deform/handles.h"
@@ -12,11 +11,11 @@ namespace {
 // A point as weights on the polygon of a node; upwards they are multiplied by the maps, P_child = P T_i (eq. (6)).
 class Climb {
  public:
-  Climb(const Model& model, Index place) : model_(model), level_(model.levels()) {
-    const Shape& shape = model.shape();
-    node_ = std::min(place / shape.polygon_step(), shape.nodes(level_) - 1);
-    weights_ = Eigen::VectorXd::Unit(shape.control_points(), place - node_ * shape.polygon_step());
-  }
+  Climb(const Model& model, const Seat& seat)
+      : model_(model),
+        level_(model.levels()),
+        node_(seat.node),
+        weights_(Eigen::VectorXd::Unit(model.shape().control_points(), seat.point)) {}
 
   void to(int level) {
     for (; level_ > level; --level_, node_ /= model_.shape().maps()) weights_ = columns().topRows(points()) * weights_;
@@ -41,13 +40,20 @@ class Climb {
   Eigen::VectorXd weights_;
 };
 
-// add(place, share) for the two places that a parameter lies between.
+// add(seat, share) for what tells a point of the finest polyline: the two places that it lies between, each the mean of
+// its seats. Joined, all seats of a place are alike: one tells it.
 template <class Add>
-void at_places(const Model& model, double parameter, const Add& add) {
+void at_seats(const Model& model, double parameter, const Add& add) {
+  const Handles finest(model.shape(), model.closed(), model.levels());
+  const auto at_place = [&](Index place, double share) {
+    std::vector<Seat> seats = finest.seats(place);
+    if (model.shape().joined()) seats.resize(1);
+    for (const Seat& seat : seats) add(seat, share / static_cast<double>(seats.size()));
+  };
   const double position = model.placement().position(parameter), first = std::floor(position);
-  const Index places = model.placement().places(), place = static_cast<Index>(first);
-  add(place, 1 - (position - first));
-  if (position > first) add((place + 1) % places, position - first);
+  const auto place = static_cast<Index>(first);
+  at_place(place, 1 - (position - first));
+  if (position > first) at_place((place + 1) % model.placement().places(), position - first);
 }
 
 }  // namespace
@@ -55,8 +61,8 @@ void at_places(const Model& model, double parameter, const Add& add) {
 Shares handle_shares(const Model& model, int level, double parameter) {
   const Handles handles(model.shape(), model.closed(), level);
   Shares shares;
-  at_places(model, parameter, [&](Index place, double share) {
-    Climb climb(model, place);
+  at_seats(model, parameter, [&](const Seat& seat, double share) {
+    Climb climb(model, seat);
     climb.to(level);
     for (int c = 0; c < model.shape().control_points(); ++c)
       if (climb.weights()(c) != 0) shares[handles.handle({climb.node(), c})] += share * climb.weights()(c);
@@ -67,8 +73,8 @@ Shares handle_shares(const Model& model, int level, double parameter) {
 Shares detail_shares(const Model& model, int level, double parameter) {
   const int d = model.shape().details_per_node();
   Shares shares;
-  at_places(model, parameter, [&](Index place, double share) {
-    Climb climb(model, place);
+  at_seats(model, parameter, [&](const Seat& seat, double share) {
+    Climb climb(model, seat);
     climb.to(level + 1);
     const Eigen::VectorXd own = climb.of_details();
     for (int j = 0; j < d; ++j)

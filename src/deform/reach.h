@@ -10,7 +10,7 @@ namespace ifsm::core {
 
 using Shares = std::map<Index, double>;  // of handles, or of a level's details
 
-// Of the finest polyline at a parameter; joined. The same for every coordinate, whatever is turned.
+// Of the finest polyline at a parameter. The same for every coordinate, whatever is turned.
 Shares handle_shares(const Model& model, int level, double parameter);
 Shares detail_shares(const Model& model, int level, double parameter);
 

@@ -19,8 +19,8 @@ double Span::share(double time) const {
 }
 
 void require_span(const Span& span) {
-  require_finite(&span.begin, 1, "begin");
-  require_finite(&span.end, 1, "end");
+  require_finite(span.begin, "begin");
+  require_finite(span.end, "end");
   if (span.begin <= span.end) return;
   throw Error(
       Status::range, "end",

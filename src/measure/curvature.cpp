@@ -73,7 +73,7 @@ Window window_about(const Polyline& polyline, const ArcLength& lengths, double m
 }
 
 void require_scale(const Polyline& polyline, const ArcLength& lengths, double scale) {
-  require_finite(&scale, 1, "scale");
+  require_finite(scale, "scale");
   if (!(scale > 0))
     throw Error(Status::range, "scale",
                 "scale is " + text_of(scale) + "; give a positive length in the samples' units.")

@@ -24,7 +24,7 @@ void require_extent(const Polyline& polyline) {
 
 double checked_scale(double given, double otherwise, double low, double high, const Polyline& polyline,
                      const char* argument) {
-  require_finite(&given, 1, argument);
+  require_finite(given, argument);
   if (given == 0) return otherwise;
   if (given / polyline.unit() >= low && given / polyline.unit() <= high) return given / polyline.unit();
   throw Error(Status::range, argument,

@@ -72,7 +72,7 @@ std::vector<double> equally_spaced(const Polyline& polyline, Index count) {
 }
 
 Index spaced_count(const Polyline& polyline, double spacing) {
-  require_finite(&spacing, 1, "spacing");
+  require_finite(spacing, "spacing");
   if (!(spacing > 0))
     throw Error(Status::range, "spacing",
                 "spacing is " + text_of(spacing) + "; give a positive distance in the samples' units.")

@@ -160,7 +160,7 @@ void require_refinement(const Model& model, const Refinement& asked) {
                 "A square model's places do not lie among those of finer levels; make a joined model of its samples.");
   in_range(asked.levels, 1, 40, "levels");
   in_range(asked.learned, 1, 40, "learned");
-  require_finite(&asked.roughness, 1, "roughness");
+  require_finite(asked.roughness, "roughness");
   if (!(asked.roughness >= 0))
     throw Error(Status::range, "roughness",
                 "roughness is " + text_of(asked.roughness) + "; give a factor that is not negative.")

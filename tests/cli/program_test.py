@@ -545,6 +545,7 @@ class Deform(Program):
 
     def test_misuse(self):
         model, target = self.model(), self.file("x.ifsm")
+        still = ("--move", "2:+0,0")
         for words, *bends in [
                 ("--move 2:10,4: '10,4' is no way: begin it with +", "--move", "2:10,4"),
                 ("--move 2: '2' has no colon", "--move", "2"),
@@ -557,7 +558,7 @@ class Deform(Program):
                 ("--move 2:+1,1@smooth=-1: radius is -1", "--move", "2:+1,1@smooth=-1"),
                 ("--move-at 1:+1,1;1:+2,2@3: ", "--move-at", "1:+1,1;1:+2,2@3"),
                 ("--pin 1/x: 'x' is not a handle's number", "--pin", "1/x"),
-                ("--move 1/2:+1,1: handles[0], 2, is pinned", "--pin", "1/2", "--move", "1/2:+1,1"),
+                ("--move 1/2:+1,1: handles[0] is 2, which is pinned", "--pin", "1/2", "--move", "1/2:+1,1"),
                 ("--scale-details x: 'x' is not a number", "--scale-details", "x"),
                 ("--scale-details 2@x: 'x' is not a level of details, or levels: 3, 2-5", "--scale-details", "2@x"),
                 ("--move 2:+1,1@length: length says what RADIUS is", "--move", "2:+1,1@length"),
@@ -568,9 +569,10 @@ class Deform(Program):
                 ("--scale-details 2@5-3: last is 3", "--scale-details", "2@5-3"),
                 ("--mirror-details z: 'z' is no axis", "--mirror-details", "z"),
                 ("--texture random=0.5,1,2: random takes", "--texture", "random=0.5,1,2"),
-                ("--during 2,1: end is 1 and begin 2", "--during", "2,1"),
-                ("--during 2: give a begin and an end", "--during", "2"),
-                ("--during 0,1,slow: 'slow' is none of smooth, linear, in, out", "--during", "0,1,slow"),
+                ("--during 2,1: end is 1 and begin 2", "--during", "2,1", *still),
+                ("--during 2: give a begin and an end", "--during", "2", *still),
+                ("--during 0,1,slow: 'slow' is none of smooth, linear, in, out", "--during", "0,1,slow", *still),
+                ("--during 0,1: say it before the edits", *still, "--during", "0,1"),
                 ("--move needs a value", "--move")]:
             with self.subTest(bends=bends):
                 self.refused(2, "ifsm: " + words, "deform", model, "-o", target, *bends)

@@ -461,11 +461,12 @@ TEST(Deformer, HoldsPins) {
 
 TEST(Deformer, DragsPointsOfTheCurveToTheirPlaces) {
   Random random(14);
+  int led = 0, refused = 0;
   for (const Subject& s : subjects(random)) {
-    if (!s.filter->shape().joined()) continue;
     const ModelPtr model = rough(s, random);
     for (const Lead lead : {Lead::handles, Lead::details})
       for (const int level : {0, 2, 3}) {
+        if (lead == Lead::details && level >= model->levels()) continue;
         Deformer deformer(model);
         deformer.apply(move(1, {1}, vectors(random, 1, s.dimension)));
         const std::vector<double> at{0.11, 0.3, 0.52, 0.77};
@@ -474,20 +475,31 @@ TEST(Deformer, DragsPointsOfTheCurveToTheirPlaces) {
         const std::vector<double> some(at.begin(), at.begin() + static_cast<std::ptrdiff_t>(most));
         Points places = deformer.now().at(some);
         places.matrix() += 0.1 * vectors(random, places.count(), s.dimension).matrix();
-        deformer.apply(drag(level, some, places, lead));
+        try {
+          deformer.apply(drag(level, some, places, lead));
+          ++led;
+        } catch (const Error& error) {
+          // Not every place can be reached while texture turns: on a line a detail grows by |P'| / |P|, which has a
+          // kink; and details of a random square filter are far larger than its polygons. Powell's hybrid method, tried
+          // on these, ended in minima too.
+          EXPECT_TRUE(s.dimension == 1 || !model->shape().joined()) << name(*model) << " level " << level;
+          EXPECT_EQ(error.status(), Status::numerical);
+          ++refused;
+          continue;
+        }
         EXPECT_LE(distance(deformer.now().at(some), places), 1e-12 * (model->parts().diagonal + largest(places)))
             << name(*model) << " level " << level << " lead " << static_cast<int>(lead);
         EXPECT_LE(distance(samples(*deformer.now().snapshot()), deformer.now().samples()),
                   1e-12 * (1 + largest(places)));
       }
   }
+  EXPECT_LE(refused, led / 50);
 }
 
 // What leads them is the solution of least norm of the linear problem: by unit displacements, one by one.
 TEST(Deformer, DragsByTheLeastChange) {
   Random random(15);
   for (const Subject& s : subjects(random)) {
-    if (!s.filter->shape().joined()) continue;
     const ModelPtr model = rough(s, random);
     const Manner still{Turning::similarity, Follow::none};  // linear
     const int level = 2;
@@ -530,7 +542,6 @@ TEST(Deformer, DragsLeavePinsAndPointsThatAreToStay) {
 TEST(Deformer, RefusesDragsThatContradictEachOther) {
   Random random(17);
   const ModelPtr model = rough({casteljau(Shape(Topology::joined, 5, 2)), false, 2}, random);
-  const ModelPtr square = rough({casteljau(Shape(Topology::square, 4, 2, 2)), false, 2}, random);
   Deformer deformer(model);
   const Points before = all(deformer);
   Points two = vectors(random, 2, 2);
@@ -543,7 +554,6 @@ TEST(Deformer, RefusesDragsThatContradictEachOther) {
               deformer.apply(drag(model->levels(), {0.3, 0.4}, two, Lead::details));
             }).argument(),
             "level");
-  EXPECT_EQ(refusal([&] { Deformer(square).apply(drag(1, {0.3, 0.4}, two, Lead::handles)); }).status(), Status::shape);
   EXPECT_EQ(all(deformer), before);
   deformer.apply(Pin{1, every, true});
   EXPECT_EQ(refusal([&] { deformer.apply(drag(1, {0.3, 0.4}, two, Lead::handles)); }).status(), Status::singular);
@@ -607,6 +617,8 @@ TEST(Deformer, RefusesWhatItCannotDoAndStaysAsItWas) {
   nan.plane(1)[0] = std::nan("");
   Move falls = move(1, {1}, one);
   falls.falloff = Falloff::linear;
+  Move reaches = move(1, {1}, one);
+  reaches.radius = 2;
   const std::tuple<Edit, Status, std::string> wrong[] = {
       {move(-1, {0}, one), Status::range, "level"},
       {move(levels + 1, {0}, one), Status::range, "level"},
@@ -617,6 +629,7 @@ TEST(Deformer, RefusesWhatItCannotDoAndStaysAsItWas) {
       {move(1, {1}, vectors(random, 1, 3)), Status::shape, "vectors"},
       {move(1, {1}, nan), Status::not_finite, "vectors"},
       {falls, Status::range, "radius"},
+      {reaches, Status::range, "radius"},
       {Pin{levels + 1, {0}, true}, Status::range, "level"},
       {Pin{1, {99}, true}, Status::range, "handles"},
       {Restyle{{-1, 0, 0}, 1, 0, -1}, Status::range, "first"},

@@ -75,14 +75,12 @@ inline Edit any_edit(const Deformer& deformer, Random& random) {
                   static_cast<int>(uniform(random, 0, 2))};
   };
   switch (uniform(random, 0, 5)) {
-    case 5:
-      if (model.shape().joined()) {
-        const double t = std::uniform_real_distribution<double>()(random);
-        Points place = deformer.now().at({t});
-        place.matrix() += 0.05 * vectors(random, 1, model.dimension()).matrix();
-        return drag(static_cast<int>(uniform(random, 0, 3)), {t}, place, Lead::details);
-      }
-      [[fallthrough]];
+    case 5: {
+      const double t = std::uniform_real_distribution<double>()(random);
+      Points place = deformer.now().at({t});
+      place.matrix() += 0.05 * vectors(random, 1, model.dimension()).matrix();
+      return drag(static_cast<int>(uniform(random, 0, std::min(3, model.levels() - 1))), {t}, place, Lead::details);
+    }
     case 0: return Restyle{levels(), 1 + 0.3 * normal(random), model.dimension() > 1 ? 0.2 : 0.0, -1};
     case 1: return Texture{levels(), nullptr, 0.7, 0, 5};
     case 2: return move(0, {uniform(random, 0, deformer.now().count(0) - 1)}, vectors(random, 1, model.dimension()));
