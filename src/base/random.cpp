@@ -9,11 +9,27 @@ namespace {
 
 using Word = std::uint32_t;
 
-// Upper and lower half of a product.
-std::array<Word, 2> multiply(Word a, Word b) {
-  const std::uint64_t product = std::uint64_t{a} * b;
-  return {static_cast<Word>(product >> 32), static_cast<Word>(product)};
+// Counters side by side: what a round does to one does not wait for the others.
+template <std::size_t lanes>
+using Counters = std::array<std::array<Word, lanes>, 4>;
+
+template <std::size_t lanes>
+void encipher(Counters<lanes>& c, std::array<Word, 2> key) {
+  constexpr int rounds = 10;
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const std::uint64_t first = std::uint64_t{0xD2511F53} * c[0][i], second = std::uint64_t{0xCD9E8D57} * c[2][i];
+      c[0][i] = static_cast<Word>(second >> 32) ^ c[1][i] ^ key[0];
+      c[1][i] = static_cast<Word>(second);
+      c[2][i] = static_cast<Word>(first >> 32) ^ c[3][i] ^ key[1];
+      c[3][i] = static_cast<Word>(first);
+    }
+    key[0] += 0x9E3779B9;
+    key[1] += 0xBB67AE85;
+  }
 }
+
+std::array<Word, 2> key_of(std::uint64_t seed) { return {static_cast<Word>(seed), static_cast<Word>(seed >> 32)}; }
 
 // -1 … 1, 53 bits.
 double symmetric(Word high, Word low) {
@@ -38,56 +54,66 @@ double logarithm(double value) {
   return exponent * 0.69314718055994531 + 2 * s * (even + square * odd);
 }
 
-// A point of the unit disc, all alike likely, and the square of its distance to the centre, which is not 0.
-struct InDisc {
-  double x, y, square;
+// A point of the square -1 … 1, all alike likely; taken when it lies in the unit disc and is not its centre.
+struct Drawn {
+  double x, y;
+
+  double square() const { return x * x + y * y; }
+  bool is_taken() const { return square() < 1 && square() > 0; }
 };
 
-InDisc drawn_in_disc(std::uint64_t seed, std::uint32_t stream, std::uint64_t index) {
-  const std::array<Word, 2> key{static_cast<Word>(seed), static_cast<Word>(seed >> 32)};
-  // Three tries in four fall into the disc; 2^8 of them never fail all.
-  for (Word attempt = 0;; ++attempt) {
-    const auto words = philox({static_cast<Word>(index), static_cast<Word>(index >> 32), stream, attempt}, key);
-    const double x = symmetric(words[0], words[1]), y = symmetric(words[2], words[3]);
-    const double square = x * x + y * y;
-    if (square < 1 && square > 0) return {x, y, square};
+template <std::size_t lanes>
+Drawn drawn(const Counters<lanes>& words, std::size_t lane) {
+  return {symmetric(words[0][lane], words[1][lane]), symmetric(words[2][lane], words[3][lane])};
+}
+
+Drawn drawn(std::uint64_t seed, std::uint32_t stream, std::uint64_t index, Word attempt) {
+  // Three tries in four are taken; 2^8 of them never fail all.
+  for (;; ++attempt) {
+    Counters<1> words{{{static_cast<Word>(index)}, {static_cast<Word>(index >> 32)}, {stream}, {attempt}}};
+    encipher(words, key_of(seed));
+    if (const Drawn point = drawn(words, 0); point.is_taken()) return point;
   }
 }
 
-std::array<double, 2> normal(const InDisc& point) {
-  const double radius = std::sqrt(-2 * logarithm(point.square) / point.square);
+std::array<double, 2> normal(const Drawn& point) {
+  const double square = point.square(), radius = std::sqrt(-2 * logarithm(square) / square);
   return {point.x * radius, point.y * radius};
 }
 
 }  // namespace
 
 std::array<Word, 4> philox(std::array<Word, 4> counter, std::array<Word, 2> key) {
-  constexpr int rounds = 10;
-  for (int round = 0; round < rounds; ++round) {
-    const auto first = multiply(0xD2511F53, counter[0]), second = multiply(0xCD9E8D57, counter[2]);
-    counter = {second[0] ^ counter[1] ^ key[0], second[1], first[0] ^ counter[3] ^ key[1], first[1]};
-    key[0] += 0x9E3779B9;
-    key[1] += 0xBB67AE85;
-  }
-  return counter;
+  Counters<1> words{{{counter[0]}, {counter[1]}, {counter[2]}, {counter[3]}}};
+  encipher(words, key);
+  return {words[0][0], words[1][0], words[2][0], words[3][0]};
 }
 
 std::array<double, 2> normal_pair(std::uint64_t seed, std::uint32_t stream, std::uint64_t index) {
-  return normal(drawn_in_disc(seed, stream, index));
+  return normal(drawn(seed, stream, index, 0));
 }
 
 void normal_numbers(std::uint64_t seed, std::uint32_t stream, std::span<double> numbers) {
-  // Points of a block first, which branch, then their numbers, which do not: a processor works on several at once.
-  constexpr std::size_t block = 32;
-  std::array<InDisc, block> points;
+  constexpr std::size_t block = 32;  // pairs
   for (std::size_t from = 0; from < numbers.size(); from += 2 * block) {
+    Counters<block> words;
+    for (std::size_t k = 0; k < block; ++k) {
+      const std::uint64_t index = from / 2 + k;
+      words[0][k] = static_cast<Word>(index), words[1][k] = static_cast<Word>(index >> 32);
+      words[2][k] = stream, words[3][k] = 0;
+    }
+    encipher(words, key_of(seed));
+    // The points first, which branch, then their numbers, which do not.
+    std::array<Drawn, block> points;
+    for (std::size_t k = 0; k < block; ++k) {
+      points[k] = drawn(words, k);
+      if (!points[k].is_taken()) points[k] = drawn(seed, stream, from / 2 + k, 1);
+    }
     const std::span<double> these = numbers.subspan(from, std::min(2 * block, numbers.size() - from));
-    const std::size_t pairs = (these.size() + 1) / 2;
-    for (std::size_t k = 0; k < pairs; ++k) points[k] = drawn_in_disc(seed, stream, from / 2 + k);
-    for (std::size_t k = 0; k < pairs; ++k) {
-      const auto [first, second] = normal(points[k]);
-      these[2 * k] = first;
-      if (2 * k + 1 < these.size()) these[2 * k + 1] = second;
+    for (std::size_t k = 0; k < these.size(); k += 2) {
+      const auto [first, second] = normal(points[k / 2]);
+      these[k] = first;
+      if (k + 1 < these.size()) these[k + 1] = second;
     }
   }
 }
