@@ -1168,7 +1168,7 @@ typedef struct ifsm_move_options {
   int32_t falloff; /* IFSM_FALLOFF_… */
   int32_t ruler;   /* IFSM_RULER_… */
   int32_t reserved; /* 0 */
-  double radius;   /* of the falloff, > 0; 0 without one */
+  double radius;   /* of the falloff, > 0; 0 without one, or it is refused */
 } ifsm_move_options;
 
 /* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
@@ -1189,7 +1189,8 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_move(ifsm_deformer deformer, in
                                                       int64_t vector_count, const ifsm_move_options *options);
 
 /* Pins handles where they are: whatever moves above them, they stay; hold 0 lets them go to where they would be. An edit,
- * as moves are. Errors: INVALID_HANDLE, NULL, RANGE, BUSY, MEMORY. Since 0.1. */
+ * as moves are. A handle of a square model is the mean of what several polygons say: pinned, they all say the mean.
+ * Errors: INVALID_HANDLE, NULL, RANGE, BUSY, MEMORY. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_pin(ifsm_deformer deformer, int32_t level, const int64_t *handles,
                                                      int64_t handle_count, int32_t hold);
 

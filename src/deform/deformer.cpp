@@ -10,7 +10,7 @@
 namespace ifsm::core {
 
 Deformer::Deformer(ModelPtr model, Manner manner) {
-  history_.push_back(std::make_shared<const Step>(State(std::move(model), manner), nullptr));
+  history_.push_back(std::make_shared<const Step>(Step{State(std::move(model), manner), nullptr}));
 }
 
 Deformer::Logged::~Logged() {

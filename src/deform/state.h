@@ -19,12 +19,12 @@ struct Touched {
   int level = 0;
   Index first = 0, last = 0;
 
-  // The places of a level that are told by these nodes, or by nodes that these are below.
-  Window places(const Model& model, int level) const;
+  // The places of the level `of` that are told by these nodes, or by nodes that these are below.
+  Window places(const Model& model, int of) const;
 };
 
 struct State {
-  State(ModelPtr of, Manner manner);  // the model as it is
+  State(ModelPtr of, Manner in);  // the model as it is
 
   ModelPtr model;
   Manner manner;
@@ -40,7 +40,7 @@ struct State {
   Index count(int level) const;
   // What follows is told in the samples' coordinates, or a numerical error when edits have led it out of the doubles'
   // range.
-  Points places(int level, Index first, Index count) const;
+  Points places(int level, Index first, Index number) const;
   void check_window(int level, Index first, Index number) const;  // what places() refuses: "level", "first", "number"
   // Points of the finest polyline. Open: parameters 0 … 1; closed: any, modulo 1.
   Points at(const std::vector<double>& parameters) const;
