@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <optional>
@@ -363,10 +362,7 @@ void add_deform(CLI::App& program, Session&) {
   command->add_option("--frames", a.frames, "So many pictures, from the first edit's begin to the last one's end")
       ->transform(whole_number(1, most_frames));
   command->add_option("--rate", a.rate, "Frames a second of an animation")
-      ->check([](const std::string& text) {
-        const double rate = std::strtod(text.c_str(), nullptr);
-        return rate >= 0.01 && rate <= 1000 ? "" : "'" + text + "' is not a number from 0.01 to 1000";
-      })
+      ->check(number_between("0.01", "1000"))
       ->capture_default_str();
   command->add_option("--width", a.size.width, "Pixels of a picture")->transform(whole_number(least_size, most_size));
   command->add_option("--height", a.size.height, "Pixels")->transform(whole_number(least_size, most_size));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace cli {
@@ -33,7 +34,7 @@ CLI::Validator whole_number_or(const std::string& word, std::uint64_t low, std::
           range + (word.empty() ? "" : ", or " + word)};
 }
 
-CLI::Validator number(const char* told, bool (*fine)(double)) {
+CLI::Validator number(const std::string& told, const std::function<bool(double)>& fine) {
   return {[=](std::string& text) -> std::string {
             const auto value = parsed<double>(text);
             return value && std::isfinite(*value) && fine(*value) ? "" : "'" + text + "' is not a number " + told;
@@ -53,6 +54,11 @@ CLI::Validator number_from_zero() {
 }
 CLI::Validator number_above_zero() {
   return number("above 0", [](double value) { return value > 0; });
+}
+
+CLI::Validator number_between(const std::string& low, const std::string& high) {
+  return number("from " + low + " to " + high, [least = *parsed<double>(low), most = *parsed<double>(high)](
+                                                   double value) { return least <= value && value <= most; });
 }
 
 CLI::Validator one_of(const std::vector<std::string>& words) {

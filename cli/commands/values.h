@@ -17,6 +17,7 @@ CLI::Validator whole_number(std::uint64_t low, std::uint64_t high = std::numeric
 CLI::Validator whole_number_or_auto(std::uint64_t low, std::uint64_t high);
 CLI::Validator number_from_zero();
 CLI::Validator number_above_zero();
+CLI::Validator number_between(const std::string& low, const std::string& high);  // as they are to be told
 CLI::Validator one_of(const std::vector<std::string>& words);
 
 // Of `--distance`: rms, max, hausdorff.

@@ -26,8 +26,9 @@ Error&& Error::needs(std::int64_t required) && {
 
 std::int64_t in_range(std::int64_t value, std::int64_t low, std::int64_t high, const char* argument) {
   if (low <= value && value <= high) return value;
-  const std::string allowed = low < high ? "give a value from " + std::to_string(low) + " to " + std::to_string(high)
-                                         : std::to_string(low) + " is the only one there is";
+  const std::string allowed = low < high    ? "give a value from " + std::to_string(low) + " to " + std::to_string(high)
+                              : low == high ? "it must be " + std::to_string(low)
+                                            : "there are none to choose from here";
   throw Error(Status::range, argument, std::string(argument) + " is " + std::to_string(value) + "; " + allowed + ".")
       .with(static_cast<double>(value));
 }

@@ -153,11 +153,9 @@ class Places {
 };
 
 Eigen::RowVectorXd polyline_point(const Model& model, const Places& places, double parameter) {
-  const double position = model.placement().position(parameter);
-  const auto first = static_cast<Index>(std::floor(position));
-  const double t = position - std::floor(position);
-  if (t == 0) return places(first);
-  return (1 - t) * places(first) + t * places((first + 1) % model.placement().places());
+  const auto [place, next, part] = model.placement().between(parameter);
+  if (part == 0) return places(place);
+  return (1 - part) * places(place) + part * places(next);
 }
 
 }  // namespace

@@ -28,6 +28,12 @@ double Placement::position(double parameter) const {
   return closed_ && found >= last ? 0.0 : found;
 }
 
+Placement::Between Placement::between(double parameter) const {
+  const double at = position(parameter), first = std::floor(at);
+  const auto place = static_cast<Index>(first);
+  return {place, (place + 1) % places_, at - first};
+}
+
 Points Placement::fill(const Points& samples) const {
   Points filled(samples.dimension(), places_);
   const Index gaps = closed_ ? samples_ : samples_ - 1;

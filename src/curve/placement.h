@@ -19,6 +19,12 @@ class Placement {
   double parameter(Index sample) const;
   // A parameter in units of places, exact at those of samples. Open: 0 … g-1. Closed: 0 … g, g excluded.
   double position(double parameter) const;
+  // The same told as 1 - part of a place and part of the next one; a ring's last is followed by its first.
+  struct Between {
+    Index place, next;
+    double part;  // 0 at a place: `next` counts for nothing
+  };
+  Between between(double parameter) const;
 
   // Samples at their places, linear between them.
   Points fill(const Points& samples) const;

@@ -10,7 +10,7 @@
 namespace ifsm::core {
 
 Deformer::Deformer(ModelPtr model, Manner manner) {
-  history_.push_back(std::make_shared<const Step>(Step{State(std::move(model), manner), nullptr}));
+  history_.push_back(std::make_shared<const Step>(Step{State(std::move(model), manner)}));
 }
 
 Deformer::Logged::~Logged() {
@@ -24,13 +24,13 @@ void Deformer::step_to(Step next) {
   history_.resize(static_cast<std::size_t>(at_) + 1);
   history_.push_back(std::move(made));
   ++at_;
-  touched_ = now().touched;
+  touched_ = step().touched;
 }
 
 void Deformer::apply(const Edit& edit) {
-  State next = std::visit([&](const auto& one) { return after(now(), one); }, edit);
-  require_finite(next.pose);
-  step_to({std::move(next), std::make_shared<Logged>(Timed{edit, span_}, step().log)});
+  Edited next = std::visit([&](const auto& one) { return after(now(), one); }, edit);
+  require_finite(next.state.pose);
+  step_to({std::move(next.state), std::make_shared<Logged>(Timed{edit, span_}, step().log), next.touched});
 }
 
 Window Deformer::changed(int level) const {
@@ -40,7 +40,7 @@ Window Deformer::changed(int level) const {
 
 void Deformer::undo() {
   if (at_ == 0) throw Error(Status::range, "deformer", "There is no step to undo; ask how many there are first.");
-  touched_ = now().touched;
+  touched_ = step().touched;
   --at_;
 }
 
@@ -48,7 +48,7 @@ void Deformer::redo() {
   if (redoable() == 0)
     throw Error(Status::range, "deformer", "There is no undone step to make again; an edit forgets them.");
   ++at_;
-  touched_ = now().touched;
+  touched_ = step().touched;
 }
 
 void Deformer::keep_as(const std::string& name) { named_[name] = history_[static_cast<std::size_t>(at_)]; }
@@ -57,9 +57,7 @@ void Deformer::go_to(const std::string& name) {
   const auto found = named_.find(name);
   if (found == named_.end())
     throw Error(Status::range, "name", "No state is kept as \"" + name + "\"; keep one by that name first.");
-  Step next = *found->second;
-  next.state.touched = {};
-  step_to(std::move(next));
+  step_to({found->second->state, found->second->log});
 }
 
 void Deformer::time_by(const Span& span) {

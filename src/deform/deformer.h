@@ -69,7 +69,8 @@ class Deformer {
   };
   struct Step {
     State state;
-    std::shared_ptr<Logged> log;
+    std::shared_ptr<Logged> log = nullptr;
+    Touched touched = {};  // on the way here
   };
   using StepPtr = std::shared_ptr<const Step>;
 

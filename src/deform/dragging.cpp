@@ -12,6 +12,9 @@ namespace {
 
 void check(const State& now, const Drag& edit) {
   const Model& model = *now.model;
+  if (edit.lead == Lead::details && model.levels() == 0)
+    throw Error(Status::range, "lead", "The model has no levels, hence no details to lead by; lead by handles.")
+        .with(static_cast<double>(edit.lead));
   in_range(edit.level, 0, edit.lead == Lead::details ? model.levels() - 1 : model.levels(), "level");
   require_parameters(model, edit.parameters);
   require_vectors(model, edit.places, static_cast<Index>(edit.parameters.size()), "places");
@@ -41,10 +44,9 @@ void lead(State& next, const Drag& edit, Index value, const Vector& by, const Sm
 }  // namespace
 
 // Whatever is found is a combination of the linear problem's rows, so that nothing changes less and ends so.
-State after(const State& now, const Drag& edit) {
+Edited after(const State& now, const Drag& edit) {
   check(now, edit);
-  State next = now;
-  next.touched = {};
+  Edited next{now};
   if (edit.parameters.empty()) return next;
   const Leash leash = leash_of(now, edit);
   const Posed posed = now.posed();
@@ -52,9 +54,9 @@ State after(const State& now, const Drag& edit) {
   for (const Index value : leash.values()) frames[value] = frame_of(now, posed, edit, value);
   const Eigen::MatrixXd wanted = to_center(edit.places, now.model->parts().center).matrix();
   const auto left = [&](const Eigen::MatrixXd& ways) -> Eigen::MatrixXd {
-    next.pose = now.pose;
-    for (const auto& [value, by] : leash.changes(ways)) lead(next, edit, value, by, frames.at(value));
-    return wanted - points_at(*now.model, next.posed(), edit.parameters).matrix();
+    next.state.pose = now.pose;
+    for (const auto& [value, by] : leash.changes(ways)) lead(next.state, edit, value, by, frames.at(value));
+    return wanted - points_at(*now.model, next.state.posed(), edit.parameters).matrix();
   };
   const double close = 2e-13 * (now.model->parts().diagonal + wanted.cwiseAbs().maxCoeff());
   if (!find_ways(left, wanted.rows(), wanted.cols(), close))

@@ -6,8 +6,8 @@
 
 namespace ifsm::core {
 
-// The state after the edit. Errors name the argument: "level", "parameters", "places".
-State after(const State& now, const Drag& edit);
+// The state after the edit. Errors name the argument: "lead", "level", "parameters", "places".
+Edited after(const State& now, const Drag& edit);
 
 // A share of it: to that part of the straight way.
 Drag part(const State& now, Drag edit, double share);

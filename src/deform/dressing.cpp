@@ -66,9 +66,14 @@ void check_told(const Model& model, const std::vector<PointsPtr>& told) {
     if (level < model.levels() && told[at]->count() == model.details(level).count() &&
         told[at]->dimension() == model.dimension())
       continue;
-    throw Error(
-        Status::shape, "details",
-        "details[" + std::to_string(at) + "] are not as many as the model's level has, or of another dimension.")
+    const std::string needed = level >= model.levels()
+                                   ? "the model has no such level"
+                                   : "the level has " + std::to_string(model.details(level).count()) +
+                                         " of dimension " + std::to_string(model.dimension());
+    throw Error(Status::shape, "details",
+                "details[" + std::to_string(at) + "] are " + std::to_string(told[at]->count()) + " of dimension " +
+                    std::to_string(told[at]->dimension()) + "; " + needed + ".")
+        .with(static_cast<double>(told[at]->count()))
         .at(level);
   }
 }
@@ -97,11 +102,10 @@ PointsPtr blended(const Model& model, int level, const LevelLook& look, const Po
   return blend;
 }
 
-State in_look(const State& now, Look look) {
-  State next = now;
-  next.touched = {};
-  next.base = std::make_shared<Base>(dressed(*now.model, look));
-  next.look = std::move(look);
+Edited in_look(const State& now, Look look) {
+  Edited next{now};
+  next.state.base = std::make_shared<Base>(dressed(*now.model, look));
+  next.state.look = std::move(look);
   return next;
 }
 
@@ -115,7 +119,7 @@ double Levels::weight(int level) const {
   return share * (1 - t) * (1 - t) * (1 + 2 * t);
 }
 
-State after(const State& now, const Restyle& edit) {
+Edited after(const State& now, const Restyle& edit) {
   check(*now.model, edit);
   Look look = now.look;
   for (int level = 0; level < now.model->levels(); ++level)
@@ -126,7 +130,7 @@ State after(const State& now, const Restyle& edit) {
   return in_look(now, std::move(look));
 }
 
-State after(const State& now, const Texture& edit) {
+Edited after(const State& now, const Texture& edit) {
   const Model& model = *now.model;
   check(model, edit);
   Look look = now.look;

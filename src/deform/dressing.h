@@ -8,8 +8,8 @@ namespace ifsm::core {
 
 // The state after an edit. Errors name the argument: "first", "last", "fade", "share", "scale", "angle", "mirror",
 // "roughness", "size", "from", "details".
-State after(const State& now, const Restyle& edit);
-State after(const State& now, const Texture& edit);
+Edited after(const State& now, const Restyle& edit);
+Edited after(const State& now, const Texture& edit);
 
 // What of an edit a share of it is.
 Restyle part(const State& now, Restyle edit, double share);

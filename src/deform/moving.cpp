@@ -71,12 +71,9 @@ Points ways(const State& now, const Move& edit) {
 
 }  // namespace
 
-State after(const State& now, const Move& edit) {
+Edited after(const State& now, const Move& edit) {
   check(now, edit);
-  State next = now;
-  next.touched = {};
-  if (edit.handles.empty()) return next;
-
+  Edited next{now};
   const Points told = ways(now, edit);
   std::map<Index, Vector> moved;
   for (std::size_t i = 0; i < edit.handles.size(); ++i)
@@ -91,23 +88,22 @@ State after(const State& now, const Move& edit) {
   for (const auto& [handle, by] : moved) {
     all.push_back(handle);
     const bool turns = edit.level > 0 && edit.reach == Reach::nodes;
-    displace(next, edit.level, handle, by, edit.reach, turns ? posed.frame(edit.level, handle) : posed.whole());
+    displace(next.state, edit.level, handle, by, edit.reach, turns ? posed.frame(edit.level, handle) : posed.whole());
   }
   if (edit.reach == Reach::nodes) next.touched = nodes_of(*now.model, edit.level, all);
   return next;
 }
 
-State after(const State& now, const Pin& edit) {
+Edited after(const State& now, const Pin& edit) {
   check_handles(now, edit.level, edit.handles);
-  State next = now;
-  auto& pins = next.pose.moves[static_cast<std::size_t>(edit.level)].pins;
+  Edited next{now, nodes_of(*now.model, edit.level, edit.handles)};
+  auto& pins = next.state.pose.moves[static_cast<std::size_t>(edit.level)].pins;
   const Posed posed = now.posed();
   for (const Index handle : edit.handles)
     if (edit.hold)
       pins[handle] = posed.places(edit.level, handle, 1).matrix().row(0).transpose();
     else
       pins.erase(handle);
-  next.touched = nodes_of(*now.model, edit.level, edit.handles);
   return next;
 }
 
@@ -158,8 +154,10 @@ Touched nodes_of(const Model& model, int level, const std::vector<Index>& handle
 void require_vectors(const Model& model, const Points& vectors, Index count, const char* argument) {
   if (vectors.count() != count || (count > 0 && vectors.dimension() != model.dimension()))
     throw Error(Status::shape, argument,
-                std::string(argument) + " must be " + std::to_string(count) + " of dimension " +
+                std::string(argument) + " are " + std::to_string(vectors.count()) + " of dimension " +
+                    std::to_string(vectors.dimension()) + " and must be " + std::to_string(count) + " of dimension " +
                     std::to_string(model.dimension()) + ".")
+        .with(static_cast<double>(vectors.count()))
         .needs(count * model.dimension());
   for (Index axis = 0; axis < vectors.dimension(); ++axis)
     require_finite(vectors.plane(axis).data(), vectors.count(), argument);

@@ -9,8 +9,8 @@
 namespace ifsm::core {
 
 // The state after an edit. Errors name the argument: "level", "handles", "vectors", "radius".
-State after(const State& now, const Move& edit);
-State after(const State& now, const Pin& edit);
+Edited after(const State& now, const Move& edit);
+Edited after(const State& now, const Pin& edit);
 
 // What of an edit a share of it is: of a move to places, that part of the way. A pin holds from the first.
 Move part(const State& now, Move edit, double share);

@@ -1,7 +1,7 @@
 #include "deform/reach.h"
 
 #include <Eigen/Core>
-#include <cmath>
+#include <vector>
 
 #include "deform/handles.h"
 
@@ -50,10 +50,9 @@ void at_seats(const Model& model, double parameter, const Add& add) {
     if (model.shape().joined()) seats.resize(1);
     for (const Seat& seat : seats) add(seat, share / static_cast<double>(seats.size()));
   };
-  const double position = model.placement().position(parameter), first = std::floor(position);
-  const auto place = static_cast<Index>(first);
-  at_place(place, 1 - (position - first));
-  if (position > first) at_place((place + 1) % model.placement().places(), position - first);
+  const auto [place, next, part] = model.placement().between(parameter);
+  at_place(place, 1 - part);
+  if (part > 0) at_place(next, part);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "deform/state.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -67,17 +66,15 @@ ModelPtr State::snapshot() const {
 
 Points points_at(const Model& model, const Posed& posed, const std::vector<double>& parameters) {
   Points all(model.dimension(), static_cast<Index>(parameters.size()));
-  const Index count = model.shape().places(model.levels(), model.closed());
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const double position = model.placement().position(parameters[k]), first = std::floor(position);
-    const auto place = static_cast<Index>(first);
-    const bool between = position > first, together = between && place + 1 < count;
-    const Points ends = posed.places(model.levels(), place, together ? 2 : 1);
+    const auto [place, next, part] = model.placement().between(parameters[k]);
+    const bool together = part > 0 && next == place + 1;  // one walk tells both
+    const Points first = posed.places(model.levels(), place, together ? 2 : 1);
     auto point = all.matrix().row(static_cast<Index>(k));
-    point = ends.matrix().row(0);
-    if (!between) continue;
-    const Points next = together ? Points() : posed.places(model.levels(), 0, 1);  // a ring's first
-    point += (position - first) * ((together ? ends.matrix().row(1) : next.matrix().row(0)) - point);
+    point = first.matrix().row(0);
+    if (part == 0) continue;
+    const Points second = together ? Points() : posed.places(model.levels(), next, 1);
+    point = (1 - part) * point + part * (together ? first.matrix().row(1) : second.matrix().row(0));
   }
   return all;
 }

@@ -30,8 +30,7 @@ struct State {
   Manner manner;
   Pose pose;
   Look look;
-  BasePtr base;     // the model in that look
-  Touched touched;  // by the edit that led here
+  BasePtr base;  // the model in that look
 
   // Borrowed from this state, which must not change.
   Posed posed() const { return {*base, pose, manner}; }
@@ -48,6 +47,12 @@ struct State {
   Points samples() const;
   // A model of its own.
   ModelPtr snapshot() const;
+};
+
+// What an edit makes of a state, and where.
+struct Edited {
+  State state;
+  Touched touched = {};
 };
 
 // From the centre.

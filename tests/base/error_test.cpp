@@ -45,6 +45,26 @@ TEST(Error, KeepsIndexValueAndCountWhenThrown) {
   EXPECT_EQ(error.required(), 12);
 }
 
+TEST(InRange, SaysWhatMayBeGiven) {
+  const auto told = [](std::int64_t low, std::int64_t high) {
+    return std::string(error_of([&] { in_range(9, low, high, "level"); }).what());
+  };
+  EXPECT_EQ(told(0, 3), "level is 9; give a value from 0 to 3.");
+  EXPECT_EQ(told(0, 0), "level is 9; it must be 0.");
+  EXPECT_EQ(told(0, -1), "level is 9; there are none to choose from here.");
+}
+
+TEST(RequireFinite, OfOneNumberTellsNoIndex) {
+  EXPECT_NO_THROW(require_finite(-1e300, "scale"));
+  for (const double bad : {nan, infinity, -infinity}) {
+    const Error error = error_of([&] { require_finite(bad, "scale"); });
+    EXPECT_EQ(error.status(), Status::not_finite);
+    EXPECT_EQ(error.argument(), "scale");
+    EXPECT_EQ(error.index(), -1);
+    EXPECT_EQ(std::isnan(error.value()), std::isnan(bad));
+  }
+}
+
 RC_GTEST_PROP(InRange, GivesTheValueBackInsideAndAnErrorThatNamesItOutside,
               (std::int64_t value, std::int64_t low, std::int64_t high)) {
   if (low <= value && value <= high) {

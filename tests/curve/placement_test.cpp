@@ -67,6 +67,17 @@ TEST(Placement, TakesClosedParametersModuloOne) {
   EXPECT_EQ(Placement(2, 9, false).position(1.0), 8.0);
 }
 
+TEST(Placement, TellsBetweenWhichPlacesAParameterLies) {
+  const Placement open(3, 9, false), ring(3, 8, true);
+  const auto told = [](const Placement::Between& b) { return std::tuple(b.place, b.next, b.part); };
+  EXPECT_EQ(told(open.between(0.3125)), std::tuple(2, 3, 0.5));
+  EXPECT_EQ(std::get<2>(told(open.between(1))), 0);
+  EXPECT_EQ(open.between(1).place, 8);
+  EXPECT_EQ(told(ring.between(0.90625)), std::tuple(7, 0, 0.25));
+  EXPECT_EQ(told(ring.between(-0.09375)), std::tuple(7, 0, 0.25));
+  EXPECT_EQ(told(ring.between(1.0)), std::tuple(0, 1, 0.0));
+}
+
 TEST(Placement, FillsLinearlyAndPicksTheSamplesBackBitForBit) {
   Random random(1);
   for (Index places = 2; places <= 60; ++places)

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "curve/evaluate.h"
 #include "deform/handles.h"
 #include "support.h"
 
@@ -20,6 +21,8 @@ TEST(Deformer, IsTheModelToTheBitBeforeAnyEdit) {
     const ModelPtr model = rough(s, random);
     Deformer deformer(model);
     EXPECT_EQ(deformer.now().samples(), samples(*model)) << name(*model);
+    const std::vector<double> parameters{0, 0.1, 0.37, 0.5, 0.98, 1};
+    EXPECT_EQ(deformer.now().at(parameters), evaluate(*model, Curve::polyline, parameters)) << name(*model);
     deformer.apply(move(1, {1}, Points(s.dimension, 1)));  // by nothing
     deformer.apply(move(0, {}, Points(s.dimension, 0)));
     deformer.apply(Restyle{{0, model->levels() - 1, 0}, 1, 0, -1});
@@ -649,6 +652,16 @@ TEST(Deformer, RefusesWhatItCannotDoAndStaysAsItWas) {
     EXPECT_EQ(deformer.undoable(), 1);
   }
   EXPECT_EQ(refusal([&] { Deformer(line).apply(Restyle{{0, 1, 0}, 1, 0.1, -1}); }).argument(), "angle");
+  const ModelPtr flat = analyze(model->parts().filter, random_curve(random, 5, 2, Kind::walk), false, 0);
+  EXPECT_EQ(refusal([&] { Deformer(flat).apply(drag(0, {0.3}, one, Lead::details)); }).argument(), "lead");
+  EXPECT_EQ(refusal([&] { Deformer(flat).apply(Restyle{{0, 0, 0}, 2, 0, -1}); }).argument(), "first");
+  Texture told;
+  told.levels = {0, 1, 0};
+  told.told = {nullptr, std::make_shared<Points>(2, 3)};
+  const Error error = refusal([&] { deformer.apply(told); });
+  EXPECT_EQ(error.argument(), "details");
+  EXPECT_EQ(error.index(), 1);
+  EXPECT_EQ(error.value(), 3);
   EXPECT_EQ(refusal([&] { deformer.go_to("nowhere"); }).argument(), "name");
   EXPECT_EQ(refusal([&] { deformer.redo(); }).status(), Status::range);
   EXPECT_EQ(refusal([&] { Deformer(model).undo(); }).status(), Status::range);
