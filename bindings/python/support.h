@@ -1,0 +1,410 @@
+// What the typemaps for Python are made of: errors, handles, buffers, curves, callbacks. Every object here lives in the
+// wrapper of one call; what it borrows it gives back at that call's end, whichever way it ends.
+#pragma once
+
+#include <Python.h>
+#include <ifsm.h>
+
+#include <cmath>
+#include <cstring>
+#include <initializer_list>
+#include <limits>
+#include <new>
+#include <vector>
+
+#include "../options.h"
+
+namespace ifsm_python {
+
+// ------------------------------------------------------------------------------------------------------------------
+// Errors: exceptions are made by a function of ifsm/_errors.py, from what ifsm_error holds
+
+inline PyObject *&error_maker() {
+  static PyObject *maker = nullptr;  // owned
+  return maker;
+}
+
+inline void set_error_maker(PyObject *maker) {
+  Py_INCREF(maker);
+  Py_XDECREF(error_maker());
+  error_maker() = maker;
+}
+
+constexpr int wrong_type = -1;  // Python's affair alone: C has types
+
+inline void raise_error(int status, const char *function, const char *argument, long long index, double value,
+                        long long required, const char *message) {
+  if (error_maker() == nullptr) {
+    PyErr_SetString(PyExc_RuntimeError, message);
+    return;
+  }
+  PyObject *error =
+      PyObject_CallFunction(error_maker(), "issLdLs", status, function, argument, index, value, required, message);
+  if (error == nullptr) return;  // whatever went wrong there is raised
+  PyErr_SetObject(reinterpret_cast<PyObject *>(Py_TYPE(error)), error);
+  Py_DECREF(error);
+}
+
+// What the C call that has just failed on this thread told.
+inline void raise_last_error() {
+  ifsm_error told{};
+  told.struct_size = sizeof told;
+  if (ifsm_last_error(&told) != IFSM_OK) return PyErr_SetString(PyExc_SystemError, "ifsm_last_error failed.");
+  raise_error(told.status, told.function, told.argument, told.index, told.value, told.required, told.message);
+}
+
+// One argument of one call: what refusals name. Refusals return false, with the exception set.
+struct Argument {
+  const char *function, *name;
+
+  bool refuse(int status, PyObject *message, long long index = -1, double value = std::nan("")) const {
+    if (message == nullptr) return false;
+    if (const char *text = PyUnicode_AsUTF8(message)) raise_error(status, function, name, index, value, -1, text);
+    Py_DECREF(message);
+    return false;
+  }
+  bool wants(const char *what, PyObject *given) const {
+    PyErr_Clear();
+    return refuse(wrong_type, PyUnicode_FromFormat("%s is a %s; give %s.", name, Py_TYPE(given)->tp_name, what));
+  }
+};
+
+// ------------------------------------------------------------------------------------------------------------------
+// Numbers and names
+
+inline bool take(PyObject *given, Argument argument, double &number) {
+  number = PyFloat_AsDouble(given);
+  if (number != -1.0 || !PyErr_Occurred()) return true;
+  if (PyErr_ExceptionMatches(PyExc_OverflowError)) {  // an integer that no double is large enough for
+    PyErr_Clear();
+    return argument.refuse(IFSM_ERROR_RANGE, PyUnicode_FromFormat("%s is too large for a double.", argument.name));
+  }
+  return argument.wants("a number", given);
+}
+
+template <class Integer>
+bool take(PyObject *given, Argument argument, Integer &number) {
+  using Limits = std::numeric_limits<Integer>;
+  PyObject *whole = PyNumber_Index(given);
+  if (whole == nullptr) return argument.wants("an integer", given);
+  bool fits = true;
+  if constexpr (Limits::is_signed) {
+    int beyond = 0;
+    const long long value = PyLong_AsLongLongAndOverflow(whole, &beyond);
+    fits = beyond == 0 && value >= Limits::min() && value <= Limits::max();
+    number = static_cast<Integer>(value);
+  } else {
+    const unsigned long long value = PyLong_AsUnsignedLongLong(whole);
+    fits = !PyErr_Occurred() && value <= Limits::max();
+    number = static_cast<Integer>(value);
+  }
+  PyErr_Clear();
+  if (!fits) {
+    double value = PyLong_AsDouble(whole);  // for the record; may be too large even for that
+    if (PyErr_Occurred()) PyErr_Clear(), value = std::nan("");
+    argument.refuse(IFSM_ERROR_RANGE,
+                    PyUnicode_FromFormat("%s is %R; give a number from %lld to %llu.", argument.name, whole,
+                                         static_cast<long long>(Limits::min()),
+                                         static_cast<unsigned long long>(Limits::max())),
+                    -1, value);
+  }
+  Py_DECREF(whole);
+  return fits;
+}
+
+// Borrowed from the str, which the caller's tuple of arguments keeps.
+inline bool take(PyObject *given, Argument argument, const char *&text) {
+  if (!PyUnicode_Check(given)) return argument.wants("a str", given);
+  Py_ssize_t length = 0;
+  text = PyUnicode_AsUTF8AndSize(given, &length);
+  if (text == nullptr || std::strlen(text) != static_cast<std::size_t>(length)) {
+    PyErr_Clear();  // lone surrogates, say
+    return argument.refuse(
+        IFSM_ERROR_RANGE, PyUnicode_FromFormat("%s holds what no name can: a zero or half a character.", argument.name));
+  }
+  return true;
+}
+
+// ------------------------------------------------------------------------------------------------------------------
+// Handles: capsules, named by their type, which destroy what they own when they go. The layer above closes an object by
+// letting go of its capsule: a call that runs in another thread holds it until it ends.
+
+template <class Handle>
+struct Kind;  // name, destroy
+
+#define IFSM_PYTHON_KIND(Handle)                                                 \
+  template <>                                                                    \
+  struct Kind<Handle> {                                                          \
+    static constexpr const char *name = #Handle;                                 \
+    static ifsm_status destroy(Handle handle) { return Handle##_destroy(handle); } \
+  }
+IFSM_PYTHON_KIND(ifsm_filter);
+IFSM_PYTHON_KIND(ifsm_model);
+IFSM_PYTHON_KIND(ifsm_fit);
+IFSM_PYTHON_KIND(ifsm_deformer);
+IFSM_PYTHON_KIND(ifsm_cancel);
+#undef IFSM_PYTHON_KIND
+
+// None is {0}, which C refuses or takes for nothing.
+template <class Handle>
+bool take_handle(PyObject *given, Argument argument, Handle &handle) {
+  handle = Handle{};
+  if (given == Py_None) return true;
+  if (!PyCapsule_IsValid(given, Kind<Handle>::name)) return argument.wants(Kind<Handle>::name, given);
+  handle = *static_cast<Handle *>(PyCapsule_GetPointer(given, Kind<Handle>::name));
+  return true;
+}
+
+// Owns what a call makes until Python does.
+template <class Handle>
+class Made {
+ public:
+  Made() = default;
+  Made(const Made &) = delete;
+  Made &operator=(const Made &) = delete;
+  ~Made() { static_cast<void>(Kind<Handle>::destroy(handle_) == IFSM_OK); }
+
+  Handle *out() { return &handle_; }
+
+  PyObject *capsule() {
+    auto *kept = new (std::nothrow) Handle(handle_);
+    if (kept == nullptr) return PyErr_NoMemory();
+    PyObject *capsule = PyCapsule_New(kept, Kind<Handle>::name, [](PyObject *dying) {
+      auto *held = static_cast<Handle *>(PyCapsule_GetPointer(dying, Kind<Handle>::name));
+      static_cast<void>(Kind<Handle>::destroy(*held) == IFSM_OK);
+      delete held;
+    });
+    if (capsule == nullptr)
+      delete kept;
+    else
+      handle_ = Handle{};
+    return capsule;
+  }
+
+ private:
+  Handle handle_{};
+};
+
+// ------------------------------------------------------------------------------------------------------------------
+// Arrays: buffers, C-contiguous, of exactly the type; the layer above makes them so. Nothing is copied here.
+
+template <class T>
+struct Element;
+template <>
+struct Element<double> {
+  static constexpr const char *formats = "d", *what = "a C-contiguous array of float64";
+};
+template <>
+struct Element<std::int32_t> {
+  static constexpr const char *formats = "i", *what = "a C-contiguous array of int32";
+};
+template <>
+struct Element<std::int64_t> {
+  static constexpr const char *formats = "lq", *what = "a C-contiguous array of int64";
+};
+template <>
+struct Element<std::uint8_t> {
+  static constexpr const char *formats = "Bbc", *what = "bytes, or a C-contiguous array of uint8";
+};
+
+template <class T>
+class View {
+ public:
+  View() = default;
+  View(const View &) = delete;
+  View &operator=(const View &) = delete;
+  View(View &&other) noexcept : buffer_(other.buffer_) { other.buffer_.obj = nullptr; }
+  ~View() {
+    if (buffer_.obj != nullptr) PyBuffer_Release(&buffer_);
+  }
+
+  // None is NULL and 0.
+  bool take(PyObject *given, Argument argument, bool writable) {
+    if (given == Py_None) return true;
+    const int flags = PyBUF_C_CONTIGUOUS | PyBUF_FORMAT | (writable ? PyBUF_WRITABLE : 0);
+    if (PyObject_GetBuffer(given, &buffer_, flags) != 0) {
+      buffer_.obj = nullptr;
+      return argument.wants(Element<T>::what, given);
+    }
+    const char *format = buffer_.format == nullptr ? "B" : buffer_.format;
+    if (std::strlen(format) == 1 && std::strchr(Element<T>::formats, *format) != nullptr) return true;
+    return argument.wants(Element<T>::what, given);
+  }
+
+  T *data() const { return static_cast<T *>(buffer_.buf); }
+  std::int64_t size() const { return buffer_.obj == nullptr ? 0 : buffer_.len / static_cast<Py_ssize_t>(sizeof(T)); }
+  // Of an array of two dimensions.
+  bool is_table() const { return buffer_.ndim == 2; }
+  Py_ssize_t rows() const { return buffer_.shape[0]; }
+  Py_ssize_t columns() const { return buffer_.shape[1]; }
+
+ private:
+  Py_buffer buffer_{};
+};
+
+// ------------------------------------------------------------------------------------------------------------------
+// Curves: (array of shape (count, dimension), closed)
+
+class Curves {
+ public:
+  bool take_one(PyObject *given, Argument argument) {
+    if (!PyTuple_Check(given) || PyTuple_GET_SIZE(given) != 2)
+      return argument.wants("a curve: a tuple of an array and whether it is closed", given);
+    views_.emplace_back();
+    View<double> &view = views_.back();
+    const int closed = PyObject_IsTrue(PyTuple_GET_ITEM(given, 1));
+    if (closed < 0 || !view.take(PyTuple_GET_ITEM(given, 0), argument, false)) return false;
+    if (!view.is_table())
+      return argument.wants("a curve whose array has the shape (points, dimension)", PyTuple_GET_ITEM(given, 0));
+    constexpr Py_ssize_t most = std::numeric_limits<std::int32_t>::max();
+    const auto dimension = static_cast<std::int32_t>(view.columns() < most ? view.columns() : most);
+    curves_.push_back({view.data(), view.rows(), dimension, closed});
+    return true;
+  }
+  bool take_list(PyObject *given, Argument argument) {
+    if (!PyList_Check(given)) return argument.wants("a list of curves", given);
+    for (Py_ssize_t i = 0; i < PyList_GET_SIZE(given); ++i)
+      if (!take_one(PyList_GET_ITEM(given, i), argument)) return false;
+    return true;
+  }
+
+  const ifsm_curve *data() const { return curves_.data(); }
+  std::int64_t size() const { return static_cast<std::int64_t>(curves_.size()); }
+
+ private:
+  std::vector<View<double>> views_;
+  std::vector<ifsm_curve> curves_;
+};
+
+// What is known about samples: a list, for each curve (parameters, weights, covariances, kinds of constraints, their
+// parameters, their values, whether ends are fixed), arrays or None.
+class Known {
+ public:
+  bool take(PyObject *given, Argument argument) {
+    if (!PyList_Check(given)) return argument.wants("a list, one entry a curve", given);
+    for (Py_ssize_t i = 0; i < PyList_GET_SIZE(given); ++i)
+      if (!take_one(PyList_GET_ITEM(given, i), argument)) return false;
+    return true;
+  }
+  ifsm_bindings::KnownSamples get() const { return {samples_.data(), static_cast<std::int64_t>(samples_.size())}; }
+
+ private:
+  bool take_one(PyObject *given, Argument argument) {
+    if (!PyTuple_Check(given) || PyTuple_GET_SIZE(given) != 7) return argument.wants("a tuple of seven", given);
+    const auto item = [&](Py_ssize_t k) { return PyTuple_GET_ITEM(given, k); };
+    ifsm_fit_samples known{};
+    std::int64_t kinds = 0, at = 0, values = 0;
+    if (!take_array(item(0), argument, known.parameters, known.parameter_count) ||
+        !take_array(item(1), argument, known.weights, known.weight_count) ||
+        !take_array(item(2), argument, known.covariances, known.covariance_count) ||
+        !take_array(item(4), argument, known.constraint_parameters, at) ||
+        !take_array(item(5), argument, known.constraint_values, values))
+      return false;
+    kinds_.emplace_back();
+    if (!kinds_.back().take(item(3), argument, false)) return false;
+    known.constraint_kinds = kinds_.back().data();
+    kinds = kinds_.back().size();
+    if (kinds != at || (kinds > 0 && values % kinds != 0)) return argument.wants("constraints of equal numbers", given);
+    known.constraint_count = kinds;
+    known.fixed_ends = PyObject_IsTrue(item(6));
+    if (known.fixed_ends < 0) return false;
+    samples_.push_back(known);
+    return true;
+  }
+  bool take_array(PyObject *given, Argument argument, const double *&data, std::int64_t &count) {
+    arrays_.emplace_back();
+    if (!arrays_.back().take(given, argument, false)) return false;
+    data = arrays_.back().data();
+    count = arrays_.back().size();
+    return true;
+  }
+
+  std::vector<View<double>> arrays_;
+  std::vector<View<std::int32_t>> kinds_;
+  std::vector<ifsm_fit_samples> samples_;
+};
+
+// ------------------------------------------------------------------------------------------------------------------
+// The interpreter's lock, and callbacks
+
+class Released {
+ public:
+  Released() : state_(PyEval_SaveThread()) {}
+  Released(const Released &) = delete;
+  Released &operator=(const Released &) = delete;
+  ~Released() { PyEval_RestoreThread(state_); }
+
+ private:
+  PyThreadState *state_;
+};
+
+// Stands between the library and a callable (or None): what that raises, or Ctrl-C, waits here until the library has
+// returned. The library asks at least every 50 ms, so that Ctrl-C is answered even without a callable.
+class Progress {
+ public:
+  Progress() = default;
+  Progress(const Progress &) = delete;
+  Progress &operator=(const Progress &) = delete;
+  ~Progress() {
+    Py_XDECREF(type_);
+    Py_XDECREF(value_);
+    Py_XDECREF(traceback_);
+  }
+
+  bool take(PyObject *given, Argument argument) {
+    if (given != Py_None && !PyCallable_Check(given)) return argument.wants("a callable or None", given);
+    callable_ = given;  // borrowed: the caller's tuple of arguments keeps it
+    return true;
+  }
+
+  static std::int32_t tell(void *user, double fraction, const char *stage) {
+    const PyGILState_STATE state = PyGILState_Ensure();
+    const std::int32_t stop = static_cast<Progress *>(user)->ask(fraction, stage);
+    PyGILState_Release(state);
+    return stop;
+  }
+
+  // In place of the error that cancelling led to, what was raised.
+  void raise_again() {
+    if (type_ == nullptr || !PyErr_Occurred()) return;
+    PyErr_Clear();
+    PyErr_Restore(type_, value_, traceback_);
+    type_ = value_ = traceback_ = nullptr;
+  }
+
+ private:
+  std::int32_t ask(double fraction, const char *stage) {
+    if (type_ != nullptr) return 1;
+    int stop = PyErr_CheckSignals();
+    if (stop == 0 && callable_ != Py_None) {
+      PyObject *answer = PyObject_CallFunction(callable_, "ds", fraction, stage);
+      stop = answer == nullptr ? -1 : PyObject_IsTrue(answer);
+      Py_XDECREF(answer);
+    }
+    if (stop < 0) PyErr_Fetch(&type_, &value_, &traceback_);
+    return stop == 0 ? 0 : 1;
+  }
+
+  PyObject *callable_ = Py_None;
+  PyObject *type_ = nullptr, *value_ = nullptr, *traceback_ = nullptr;
+};
+
+// The process's log: a callable that is kept. What it raises is told and goes no further.
+inline PyObject *&log_sink() {
+  static PyObject *sink = nullptr;  // owned
+  return sink;
+}
+
+inline void log_line(void *, std::int32_t level, const char *text) {
+  const PyGILState_STATE state = PyGILState_Ensure();
+  if (PyObject *sink = log_sink()) {
+    Py_INCREF(sink);
+    PyObject *answer = PyObject_CallFunction(sink, "is", static_cast<int>(level), text);
+    if (answer == nullptr) PyErr_WriteUnraisable(sink);
+    Py_XDECREF(answer);
+    Py_DECREF(sink);
+  }
+  PyGILState_Release(state);
+}
+
+}  // namespace ifsm_python
