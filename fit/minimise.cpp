@@ -4,47 +4,14 @@
 #include <ceres/iteration_callback.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
-#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
+
+#include "fit/quiet.h"
 
 namespace ifsm::core {
 namespace {
-
-// Ceres logs through glog even when told to be silent, and glog's level belongs to the process: it is raised while any
-// fit runs and put back after the last.
-class Quiet {
- public:
-  Quiet() {
-    const std::lock_guard lock(mutex());
-    if (running()++ == 0) {
-      before() = FLAGS_minloglevel;
-      FLAGS_minloglevel = google::GLOG_FATAL;
-    }
-  }
-  ~Quiet() {
-    const std::lock_guard lock(mutex());
-    if (--running() == 0) FLAGS_minloglevel = before();
-  }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex m;
-    return m;
-  }
-  static int& running() {
-    static int count = 0;
-    return count;
-  }
-  static int& before() {
-    static int level = 0;
-    return level;
-  }
-};
 
 Contractivity contractivity(const Shape& shape, const RowMatrix& matrix) {
   return contractivity_of(shape, matrix.topRows(shape.control_points()));
