@@ -2,7 +2,7 @@
 jobs ?= $(shell nproc)
 build := cmake --build -j$(jobs) --preset
 
-.PHONY: help demo test bench sanitize fuzz abi format check-format tidy clean
+.PHONY: help demo test bench python sanitize fuzz abi format check-format tidy clean
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/  make \1\t\2/p' Makefile | expand -t 22
 
@@ -16,6 +16,9 @@ test: release ## build everything and run all tests
 
 bench: ## build and run the benchmarks
 	@scripts/bench
+
+python: ## the Python package: build the wheel, install it in a fresh environment, run its tests there
+	@scripts/python
 
 sanitize: ## all tests under address and undefined-behaviour sanitizers, the threaded ones under the thread sanitizer
 	@scripts/sanitize asan

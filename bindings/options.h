@@ -161,8 +161,8 @@ inline ifsm_status ifsm_deformer_create(ifsm_model model, int32_t turning, int32
 }
 
 inline ifsm_status ifsm_deformer_move(ifsm_deformer deformer, int32_t level, const int64_t *handles,
-                                      int64_t handle_count, const double *vectors, int64_t vector_count,
-                                      int32_t places, int32_t reach, int32_t falloff, int32_t ruler, double radius) {
+                                      int64_t handle_count, const double *vectors, int64_t vector_count, int32_t places,
+                                      int32_t reach, int32_t falloff, int32_t ruler, double radius) {
   auto options = defaults(ifsm_move_options_init);
   options.places = places;
   options.reach = reach;

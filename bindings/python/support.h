@@ -6,6 +6,7 @@
 #include <ifsm.h>
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <initializer_list>
 #include <limits>
@@ -102,11 +103,11 @@ bool take(PyObject *given, Argument argument, Integer &number) {
   if (!fits) {
     double value = PyLong_AsDouble(whole);  // for the record; may be too large even for that
     if (PyErr_Occurred()) PyErr_Clear(), value = std::nan("");
-    argument.refuse(IFSM_ERROR_RANGE,
-                    PyUnicode_FromFormat("%s is %R; give a number from %lld to %llu.", argument.name, whole,
-                                         static_cast<long long>(Limits::min()),
-                                         static_cast<unsigned long long>(Limits::max())),
-                    -1, value);
+    argument.refuse(
+        IFSM_ERROR_RANGE,
+        PyUnicode_FromFormat("%s is %R; give a number from %lld to %llu.", argument.name, whole,
+                             static_cast<long long>(Limits::min()), static_cast<unsigned long long>(Limits::max())),
+        -1, value);
   }
   Py_DECREF(whole);
   return fits;
@@ -120,7 +121,8 @@ inline bool take(PyObject *given, Argument argument, const char *&text) {
   if (text == nullptr || std::strlen(text) != static_cast<std::size_t>(length)) {
     PyErr_Clear();  // lone surrogates, say
     return argument.refuse(
-        IFSM_ERROR_RANGE, PyUnicode_FromFormat("%s holds what no name can: a zero or half a character.", argument.name));
+        IFSM_ERROR_RANGE,
+        PyUnicode_FromFormat("%s holds what no name can: a zero or half a character.", argument.name));
   }
   return true;
 }
@@ -132,18 +134,31 @@ inline bool take(PyObject *given, Argument argument, const char *&text) {
 template <class Handle>
 struct Kind;  // name, destroy
 
-#define IFSM_PYTHON_KIND(Handle)                                                 \
-  template <>                                                                    \
-  struct Kind<Handle> {                                                          \
-    static constexpr const char *name = #Handle;                                 \
-    static ifsm_status destroy(Handle handle) { return Handle##_destroy(handle); } \
-  }
-IFSM_PYTHON_KIND(ifsm_filter);
-IFSM_PYTHON_KIND(ifsm_model);
-IFSM_PYTHON_KIND(ifsm_fit);
-IFSM_PYTHON_KIND(ifsm_deformer);
-IFSM_PYTHON_KIND(ifsm_cancel);
-#undef IFSM_PYTHON_KIND
+template <>
+struct Kind<ifsm_filter> {
+  static constexpr const char *name = "ifsm_filter";
+  static ifsm_status destroy(ifsm_filter handle) { return ifsm_filter_destroy(handle); }
+};
+template <>
+struct Kind<ifsm_model> {
+  static constexpr const char *name = "ifsm_model";
+  static ifsm_status destroy(ifsm_model handle) { return ifsm_model_destroy(handle); }
+};
+template <>
+struct Kind<ifsm_fit> {
+  static constexpr const char *name = "ifsm_fit";
+  static ifsm_status destroy(ifsm_fit handle) { return ifsm_fit_destroy(handle); }
+};
+template <>
+struct Kind<ifsm_deformer> {
+  static constexpr const char *name = "ifsm_deformer";
+  static ifsm_status destroy(ifsm_deformer handle) { return ifsm_deformer_destroy(handle); }
+};
+template <>
+struct Kind<ifsm_cancel> {
+  static constexpr const char *name = "ifsm_cancel";
+  static ifsm_status destroy(ifsm_cancel handle) { return ifsm_cancel_destroy(handle); }
+};
 
 // None is {0}, which C refuses or takes for nothing.
 template <class Handle>
@@ -192,15 +207,15 @@ template <class T>
 struct Element;
 template <>
 struct Element<double> {
-  static constexpr const char *formats = "d", *what = "a C-contiguous array of float64";
+  static constexpr const char *formats = "d", *what = "an aligned C-contiguous array of float64";
 };
 template <>
 struct Element<std::int32_t> {
-  static constexpr const char *formats = "i", *what = "a C-contiguous array of int32";
+  static constexpr const char *formats = "i", *what = "an aligned C-contiguous array of int32";
 };
 template <>
 struct Element<std::int64_t> {
-  static constexpr const char *formats = "lq", *what = "a C-contiguous array of int64";
+  static constexpr const char *formats = "lq", *what = "an aligned C-contiguous array of int64";
 };
 template <>
 struct Element<std::uint8_t> {
@@ -226,6 +241,7 @@ class View {
       buffer_.obj = nullptr;
       return argument.wants(Element<T>::what, given);
     }
+    if (reinterpret_cast<std::uintptr_t>(buffer_.buf) % alignof(T) != 0) return argument.wants(Element<T>::what, given);
     const char *format = buffer_.format == nullptr ? "B" : buffer_.format;
     if (std::strlen(format) == 1 && std::strchr(Element<T>::formats, *format) != nullptr) return true;
     return argument.wants(Element<T>::what, given);
@@ -241,6 +257,9 @@ class View {
  private:
   Py_buffer buffer_{};
 };
+
+// Where C sees an array that it is handed: that of the array itself, since nothing is copied. For tests.
+inline std::uintptr_t address_of(const double *data, std::int64_t) { return reinterpret_cast<std::uintptr_t>(data); }
 
 // ------------------------------------------------------------------------------------------------------------------
 // Curves: (array of shape (count, dimension), closed)

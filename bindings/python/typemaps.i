@@ -155,6 +155,8 @@ IFSM_TOLD(ifsm_deformer_info, info)
 
 // What makes exceptions: maker(status, function, argument, index, value, required, message).
 %exception ifsm_python::set_error_maker { $action }
+%typemap(out) std::uintptr_t { $result = PyLong_FromUnsignedLongLong($1); }
 namespace ifsm_python {
+std::uintptr_t address_of(const double *DOUBLES, int64_t DOUBLE_COUNT);
 void set_error_maker(PyObject *maker);
 }

@@ -11,8 +11,6 @@ Arrays are NumPy's, of shape (points, dimension). Whatever is refused raises a s
 argument, the index and the value. Models and filters are immutable and may be shared between threads; long calls run
 without the interpreter's lock, and Ctrl-C cancels them.
 """
-import logging as _logging
-
 from . import _native
 from ._curves import curves
 from ._deformers import Deformer
@@ -62,8 +60,10 @@ def log_to(logger="ifsm"):
     if logger is None:
         _native.ifsm_set_log(None)
         return
-    target = _logging.getLogger(logger) if isinstance(logger, str) else logger
-    _native.ifsm_set_log(lambda level, text: target.log(_logging.WARNING if level else _logging.INFO, "%s", text))
+    import logging
+
+    target = logging.getLogger(logger) if isinstance(logger, str) else logger
+    _native.ifsm_set_log(lambda level, text: target.log(logging.WARNING if level else logging.INFO, "%s", text))
 
 
 def __getattr__(name):
@@ -80,6 +80,5 @@ def __dir__():
 
 
 for _name in __all__:
-    if isinstance(globals()[_name], type):
-        globals()[_name].__module__ = __name__  # where people find them
+    globals()[_name].__module__ = __name__  # where people find them
 del _name

@@ -17,7 +17,8 @@ def doubles(given, function, argument):
             raise invalid_value(function, argument, f"{argument} has rows of different lengths; give as many numbers "
                                 "for each point.", Status.SHAPE)
         raise invalid_type(function, argument, given, "real numbers")
-    return np.asarray(array, dtype=np.float64, order="C")
+    array = np.asarray(array, dtype=np.float64, order="C")
+    return array if array.flags.aligned else array.copy()
 
 
 def _is_ragged(given):

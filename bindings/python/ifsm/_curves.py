@@ -24,6 +24,13 @@ def curve(given, closed, function, argument="points"):
     closed = bool(closed)
     if closed and len(points) > 1 and np.array_equal(points[0], points[-1]):
         points = points[:-1]
+    count, dimension = points.shape
+    if count < 2:
+        raise invalid_value(function, argument, f"{argument} holds {count} point{'s' * (count != 1)}; give 2 or more.",
+                            Status.SHAPE, required=2)
+    if not 1 <= dimension <= 4:
+        raise invalid_value(function, argument, f"{argument} has {dimension} columns; points have 1 to 4 dimensions.",
+                            Status.SHAPE)
     return points, closed
 
 
@@ -47,18 +54,25 @@ def curves(geometry):
 
 
 def _lines(geometry, function, argument):
+    try:
+        yield from _walked(geometry, function, argument)
+    except KeyError as error:
+        raise invalid_value(function, argument, f"{argument} is no GeoJSON: it lacks {error}.", Status.SHAPE) from None
+
+
+def _walked(geometry, function, argument):
     if not isinstance(geometry, dict) or "type" not in geometry:
         raise invalid_type(function, argument, geometry, "something with a __geo_interface__, or a GeoJSON dict")
     kind = geometry["type"]
     if kind == "FeatureCollection":
         for feature in geometry["features"]:
-            yield from _lines(feature, function, argument)
+            yield from _walked(feature, function, argument)
     elif kind == "Feature":
         if geometry["geometry"] is not None:
-            yield from _lines(geometry["geometry"], function, argument)
+            yield from _walked(geometry["geometry"], function, argument)
     elif kind == "GeometryCollection":
         for part in geometry["geometries"]:
-            yield from _lines(part, function, argument)
+            yield from _walked(part, function, argument)
     elif kind == "LineString":
         yield geometry["coordinates"], False
     elif kind == "LinearRing":

@@ -2,7 +2,7 @@
 import numpy as np
 
 from . import _arrays, _native
-from ._errors import naming
+from ._errors import Status, invalid_value, naming
 from ._models import Model, _at, _saved, as_bytes, crossings
 from ._objects import Handled, native_of
 
@@ -104,12 +104,19 @@ class Deformer(Handled):
             arc ``"length"``.
         """
         function = "ifsm.Deformer.move"
+        moved = _handles(handles, function)
         _native.ifsm_deformer_move(
-            self._held(), level, _handles(handles, function),
-            _arrays.table(vectors, function, "vectors", self._model.dimension), bool(places),
+            self._held(), level, moved, self._points(vectors, len(moved), function, "vectors", "handles"), bool(places),
             _arrays.choice(reach, REACHES, function, "reach"), _arrays.choice(falloff, FALLOFFS, function, "falloff"),
             _arrays.choice(ruler, RULERS, function, "ruler"), radius)
         return self
+
+    def _points(self, given, count, function, argument, others):
+        points = _arrays.table(given, function, argument, self._model.dimension)
+        if len(points) != count:
+            raise invalid_value(function, argument, f"{argument} holds {len(points)} points for {count} {others}; give one "
+                                "for each.", Status.SHAPE, required=count)
+        return points
 
     def pin(self, level, handles):
         """Pin handles where they are: whatever moves above them, they stay."""
@@ -126,7 +133,7 @@ class Deformer(Handled):
         details (``lead``). Pinned handles stay."""
         function = "ifsm.Deformer.drag"
         parameters = np.atleast_1d(_arrays.doubles(t, function, "t"))
-        goals = _arrays.table(places, function, "places", self._model.dimension)
+        goals = self._points(places, parameters.size, function, "places", "parameters")
         with naming(parameters="t"):
             _native.ifsm_deformer_drag(self._held(), level, _arrays.choice(lead, LEADS, function, "lead"), parameters, goals)
         return self
@@ -186,7 +193,8 @@ class Deformer(Handled):
 
     def replay(self, data):
         """Make the edits that `to_bytes` told, after those that there are: all, or none."""
-        _native.ifsm_deformer_replay(self._held(), as_bytes(data, "ifsm.Deformer.replay", "data"))
+        with naming(bytes="data"):
+            _native.ifsm_deformer_replay(self._held(), as_bytes(data, "ifsm.Deformer.replay", "data"))
         return self
 
     # ---- the curve as it is -----------------------------------------------------------------------------------
@@ -205,6 +213,9 @@ class Deformer(Handled):
         """Handles of a level, where they are: all, or a window of `count` from `first` on. By default the finest ones."""
         model = self._model
         level = model.levels if level is None else _arrays.whole(level, "ifsm.Deformer.points", "level")
+        if not 0 <= level <= model.levels:
+            raise invalid_value("ifsm.Deformer.points", "level", f"level is {level}; give a value from 0 to "
+                                f"{model.levels}.", value=level)
         if count is None:
             count = self._handle_count(level) - _arrays.whole(first, "ifsm.Deformer.points", "first")
         doubles = _native.ifsm_deformer_points(self._held(), level, first, count, None)
@@ -214,8 +225,10 @@ class Deformer(Handled):
 
     def _handle_count(self, level):
         model = self._model
-        points = _native.ifsm_model_points(model._held(), level, None) // model.dimension
-        return points - 1 if model.closed and model._info.topology == _native.IFSM_TOPOLOGY_JOINED else points
+        edges = (model._info.control_points - 1) * model._info.maps ** level  # of joined polygons
+        if model._info.topology == _native.IFSM_TOPOLOGY_JOINED:
+            return edges if model.closed else edges + 1
+        return _native.ifsm_model_points(model._held(), level, None) // model.dimension
 
     def changed(self, level):
         """(first, count): the handles of a level that the last step may have changed."""

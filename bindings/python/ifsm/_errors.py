@@ -138,7 +138,7 @@ def rename(error, names):
     told, rest = re.match(r"(\w*)(.*)", error.argument, re.S).groups()
     if told in names:
         error.argument = names[told] + rest
-        error.args = (re.sub(rf"\b{told}\b", names[told], error.args[0], count=1), *error.args[1:])
+        error.args = (re.sub(rf"^{told}\b", names[told], error.args[0]), *error.args[1:])
     return error
 
 

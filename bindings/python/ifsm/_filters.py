@@ -32,7 +32,7 @@ class Filter(Handled):
     Examples
     --------
     >>> ifsm.Filter("casteljau", control_points=3)
-    <ifsm.Filter joined, 3 control points, 2 maps, condition 4.73>
+    <ifsm.Filter joined, 3 control points, 2 maps, condition 1.94>
     >>> ifsm.Filter("casteljau", control_points=3).matrix.shape
     (5, 5)
     """

@@ -88,19 +88,31 @@ class Known:
         self._arrays = (vector(parameters, "parameters"), vector(weights, "weights"), vector(covariances, "covariances"))
         kinds, at, values = [], [], []
         for kind, name, pairs in ((_POINT, "through", through), (_TANGENT, "along", along)):
-            for parameter, value in pairs:
+            for parameter, value in _pairs(pairs, function, name):
                 kinds.append(kind)
-                at.append(parameter)
-                values.append(_arrays.doubles(value, function, name))
+                at.append(float(_arrays.doubles(parameter, function, name)))
+                values.append(_arrays.doubles(value, function, name).reshape(-1))
         if len({value.shape for value in values}) > 1:
-            raise invalid_value(function, "through", "points and directions must have one dimension, the curve's.",
+            raise invalid_value(function, "through", "through and along must hold points of one dimension, the curve's.",
                                 Status.SHAPE)
-        self._constraints = (np.array(kinds, dtype=np.int32), _arrays.doubles(at or np.empty(0), function, "through"),
+        self._constraints = (np.array(kinds, dtype=np.int32), np.array(at, dtype=np.float64),
                              np.ascontiguousarray(np.concatenate(values)) if values else np.empty(0))
         self._fixed_ends = bool(fixed_ends)
 
     def _told(self):
         return (*self._arrays, *self._constraints, self._fixed_ends)
+
+
+def _pairs(given, function, argument):
+    """(parameter, value) pairs, which a list of anything else is not."""
+    try:
+        pairs = [(parameter, value) for parameter, value in given]
+    except (TypeError, ValueError):
+        raise invalid_type(function, argument, given, "a list of (parameter, value)") from None
+    for parameter, _ in pairs:
+        if np.ndim(parameter) != 0:
+            raise invalid_type(function, argument, parameter, "one parameter for each value")
+    return pairs
 
 
 _NOTHING_KNOWN = (None, None, None, None, None, None, False)
@@ -244,7 +256,8 @@ def fit(points, *, closed=None, control_points=None, maps=None, filter=None, bud
 
 def _of_one_curve(error):
     """Names what was given: "points", not "curves[0].points"; "budget", not "budgets[0]"."""
-    for listed, alone in (("curves[0].", ""), ("budgets[0]", "budget")):
+    for listed, alone in (("curves[0].", ""), ("the model of curve 0", "its model"), ("curve 0", "the curve"),
+                          ("curves[0]", "points"), ("budgets[0]", "budget")):
         error.args = (error.args[0].replace(listed, alone), *error.args[1:])
         error.argument = error.argument.replace(listed, alone)
     if error.argument == "budgets":
@@ -303,6 +316,8 @@ def fit_curve(curves, *, control_points=None, maps=None, filter=None, fixed_filt
     start, n, maps = _start(filter, control_points, maps, function)
     given = _all(curves, function)
     facts = []
+    if known is not None and not isinstance(known, (list, tuple)):
+        raise invalid_type(function, "known", known, "a list of ifsm.Known")
     for index, fact in enumerate(known or ()):
         if fact is not None and not isinstance(fact, Known):
             raise invalid_type(function, f"known[{index}]", fact, "an ifsm.Known, or None")
@@ -369,7 +384,10 @@ def _start(filter, control_points, maps, function):
 def _all(curves, function):
     if isinstance(curves, (str, bytes, dict)) or not hasattr(curves, "__iter__"):
         raise invalid_type(function, "curves", curves, "a list of curves")
-    return [_one(given, function, f"curves[{index}]") for index, given in enumerate(curves)]
+    read = [_one(given, function, f"curves[{index}]") for index, given in enumerate(curves)]
+    if not read:
+        raise invalid_value(function, "curves", "curves is empty; give one at least.", Status.SHAPE, required=1)
+    return read
 
 
 def _one(given, function, argument):

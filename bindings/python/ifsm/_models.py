@@ -1,5 +1,6 @@
 """Models: a control polygon, a filter, and a tree of details."""
 import numbers
+import os
 from typing import NamedTuple
 
 import numpy as np
@@ -234,8 +235,10 @@ class Model(Handled):
         if details is not None:
             return self.keep(details=details).points(levels=levels, out=out)
         level = self.levels if levels is None else levels
-        with naming(level="levels"):
+        try:
             count = _native.ifsm_model_points(self._held(), level, None)
+        except Error as error:
+            raise rename(error, {"level": "levels"})
         points = _arrays.output(out, (count // self.dimension, self.dimension), "ifsm.Model.points")
         _native.ifsm_model_points(self._held(), level, points)
         return points
@@ -364,8 +367,10 @@ class Model(Handled):
 
     def length(self, start=0.0, stop=1.0):
         """Arc length between two parameters, in the samples' units."""
-        with naming(**{"from": "start", "_from": "start", "to": "stop"}):
+        try:
             return _native.ifsm_model_length(self._held(), start, stop)
+        except Error as error:
+            raise rename(error, {"from": "start", "_from": "start", "to": "stop"})
 
     def spaced(self, points=None, *, spacing=None):
         """Parameters of points that are equally far apart along the curve: so many, or so far."""
@@ -422,11 +427,12 @@ class Model(Handled):
     @classmethod
     def from_bytes(cls, data):
         """A model from a file's bytes, of either format."""
-        return cls._of(_native.ifsm_model_load(as_bytes(data, "ifsm.Model.from_bytes", "data")))
+        with naming(bytes="data"):
+            return cls._of(_native.ifsm_model_load(as_bytes(data, "ifsm.Model.from_bytes", "data")))
 
     def save(self, path, *, format=None):
         """Write it to a file: JSON when the name ends in ``.json``, else CBOR. The program ``ifsm`` reads both."""
-        words = "json" if str(path).endswith(".json") else "cbor"
+        words = "json" if os.fsdecode(path).endswith(".json") else "cbor"
         data = self.to_bytes(words if format is None else format)
         with open(path, "wb") as file:
             file.write(data)

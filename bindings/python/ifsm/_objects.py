@@ -11,11 +11,6 @@ class Handled:
         """Give the object's memory back. Calls that run in other threads finish; later ones raise `Closed`."""
         self._native = None
 
-    @property
-    def closed_handle(self):
-        """Whether ``close()`` was called."""
-        return self._native is None
-
     def __enter__(self):
         self._held()
         return self

@@ -34,7 +34,9 @@ def _outline(model):
 
 
 def png(model):
-    """None without matplotlib."""
+    """None without matplotlib, and of four dimensions."""
+    if model.dimension > 3:
+        return None
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure

@@ -1,0 +1,456 @@
+"""Pictures of models, drawn with matplotlib.
+
+>>> t = np.linspace(0, 1, 257)
+>>> model = ifsm.Model(np.column_stack([t, np.sin(9 * t ** 2)]))
+>>> axes = ifsm.plot.curve(model)                        # a figure of its own
+>>> ifsm.plot.curve(model.keep(details=9), ax=axes, label="9 details") is axes    # or axes that there are
+True
+
+All functions take models, or deformers as they are at the moment, and return the axes that they have drawn on. Without
+`ax` they make a figure by pyplot; labels that axes have already stay. Needs matplotlib: ``pip install ifsm[plot]``.
+"""
+import numpy as np
+
+from . import _arrays
+from ._deformers import Deformer
+from ._errors import Closed, Status, invalid_type, invalid_value, naming
+from ._models import Model
+
+try:
+    import matplotlib
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+    from matplotlib.ticker import MaxNLocator
+except ImportError as error:
+    raise ImportError("ifsm.plot draws with matplotlib, which is not installed: pip install ifsm[plot]") from error
+
+__all__ = ["before_after", "curve", "levels", "residuals", "scalogram"]
+
+_COORDINATES = ("x", "y", "z")
+_FEW = 60  # points that are seen one by one
+_MANY = 1000  # points from which on a usual line hides what it shows
+_FIRST_LEVELS = 5  # that `levels` shows beside the finest: later ones look like it at this size
+_AIR = 0.5  # of the curve's extent: how far beside it the view goes for control points; those of a ring may be anywhere
+_ABREAST, _PANEL = 3, 3.0  # small multiples in a row, and how wide, in inches
+_COLUMNS = 512  # of a scalogram, at most: about the pixels of its figure's axes, so that none of them is lost
+_DECADES = 6  # below the largest detail: those that a palette tells apart, and far above rounding
+_ZOOM = 0.75  # of a box in space: room for its labels, which no layout sees
+_ZERO = "0.85"  # light grey: no colour of viridis
+
+
+# ---- curves -------------------------------------------------------------------------------------------------------
+
+
+def curve(model, *, ax=None, control_polygon=True, levels=None, details=None, **line):
+    """Draw a curve and its control polygon.
+
+    Of one dimension over its parameter; in the plane with equal units; in space on 3-D axes, if these are given or none
+    are, else its first two coordinates.
+
+    Parameters
+    ----------
+    model : Model or Deformer
+        Of 1 to 3 dimensions.
+    ax : matplotlib Axes, optional
+    control_polygon : bool
+        Whether to draw it. Control points far beside the curve, as rings may have them, are left out of view.
+    levels, details : int, optional
+        As in ``model.points``: how far down, and of the nearest sketch with so many details.
+    line
+        For the curve's line, what matplotlib's ``Axes.plot`` takes: ``color``, ``linewidth``, ``label``, …
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Raises
+    ------
+    InvalidValue
+        For a model of 4 dimensions.
+
+    Examples
+    --------
+    >>> model = ifsm.Model(np.column_stack([np.arange(65), np.arange(65) % 5]))
+    >>> axes = ifsm.plot.curve(model, details=20, color="black")
+    >>> bool(np.array_equal(axes.lines[0].get_xydata(), model.points(details=20)))
+    True
+    """
+    function = "ifsm.plot.curve"
+    shown = _drawable(model, function, "model")
+    if details is not None:
+        shown = shown.keep(details=details)
+    points = _closed(shown, shown.points(levels=levels))
+    ax = _axes(ax, shown, function)
+    drawn = _draw(ax, points, **{"label": "curve" if levels is None else f"level {levels}", **line})
+    if control_polygon:
+        _draw_polygon(ax, shown.control_points, points, drawn.get_color())
+    return _finish(ax, shown)
+
+
+def before_after(model, deformed, *, ax=None, control_polygon=False):
+    """Draw a curve thin and grey, and what has become of it over it.
+
+    Parameters
+    ----------
+    model, deformed : Model or Deformer
+        Of one dimension, 1 to 3. The numbers of their samples may differ.
+    ax : matplotlib Axes, optional
+    control_polygon : bool
+        Whether to draw that of `deformed`.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Examples
+    --------
+    >>> model = ifsm.Model(np.column_stack([np.arange(65), np.arange(65) % 5]), filter="casteljau")
+    >>> axes = ifsm.plot.before_after(model, model.deformer().move(0, 2, [0, 40]))
+    >>> [line.get_label() for line in axes.lines]
+    ['before', 'after']
+    """
+    function = "ifsm.plot.before_after"
+    before, after = _drawable(model, function, "model"), _drawable(deformed, function, "deformed")
+    _same_dimension(before, after, function, "deformed")
+    ax = _axes(ax, before, function)
+    _draw(ax, _closed(before, before.points()), label="before", color="0.6", linewidth=0.7)
+    points = _closed(after, after.points())
+    drawn = _draw(ax, points, label="after", color="C0")
+    if control_polygon:
+        _draw_polygon(ax, after.control_points, points, drawn.get_color())
+    return _finish(ax, before)
+
+
+def levels(model, which=None, *, ax=None, overlay=False):
+    """Draw the levels of a model: the control polygons of each, joined, as ``model.points(levels=…)``.
+
+    Parameters
+    ----------
+    model : Model or Deformer
+        Of 1 to 3 dimensions.
+    which : int or list of int, optional
+        Levels, 0 (the control polygon) … ``model.levels``. By default the first five, and the finest.
+    ax : matplotlib Axes, or an array of them, optional
+        One for each level; with `overlay` a single one.
+    overlay : bool
+        Whether to draw all in one picture, coarse ones dark and fine ones light; else each over the grey curve.
+
+    Returns
+    -------
+    array of matplotlib Axes, one for each level, or one for all
+
+    Examples
+    --------
+    >>> model = ifsm.Model(np.column_stack([np.arange(65), np.arange(65) % 5]))
+    >>> [axes.get_title() for axes in ifsm.plot.levels(model, [0, 3])]
+    ['level 0: 5 points', 'level 3: 33 points']
+    >>> ifsm.plot.levels(model, overlay=True).shape
+    (1,)
+    """
+    function = "ifsm.plot.levels"
+    shown = _drawable(model, function, "model")
+    chosen = _levels(shown, which, function)
+    with naming(levels="which"):
+        lines = [_closed(shown, shown.points(levels=level)) for level in chosen]
+    finest = _closed(shown, shown.points())
+    axes = _axes_of_levels(ax, shown, 1 if overlay else len(lines), function)
+    if overlay:
+        _overlay(axes[0], chosen, lines, finest)
+    else:
+        _small_multiples(axes, chosen, lines, finest)
+    for each in axes:
+        _finish(each, shown)
+    if ax is None and len(axes) > 1:
+        _arrange(axes, shown)
+    return axes
+
+
+def _levels(model, which, function):
+    if which is None:
+        return [*range(min(_FIRST_LEVELS, model.levels)), model.levels]
+    chosen = _arrays.integers(which, function, "which", np.int64).tolist()
+    if not chosen:
+        raise invalid_value(function, "which", "which is empty; give one level at least.", Status.SHAPE, required=1)
+    return chosen
+
+
+def _overlay(ax, chosen, lines, finest):
+    shades = matplotlib.colormaps["viridis"](np.linspace(0, 0.9, len(lines)))  # its last tenth is pale on white
+    for level, points, shade in zip(chosen, lines, shades):
+        _draw(ax, points, beside=finest, label=f"level {level}", color=shade)
+
+
+def _small_multiples(axes, chosen, lines, finest):
+    for ax, level, points in zip(axes, chosen, lines):
+        _draw(ax, finest, color="0.75", linewidth=0.6, marker="none", label="_curve")
+        _draw(ax, points, beside=finest, color="C0", label=f"_level {level}")
+        ax.set_title(f"level {level}: {len(points)} point{'s' * (len(points) != 1)}", fontsize="medium")
+
+
+# ---- numbers over the curve ---------------------------------------------------------------------------------------
+
+
+def scalogram(model, *, ax=None):
+    """Draw the sizes of details over the parameter (across) and the level (down).
+
+    Colours tell log10 of ``model.significance(level)``, in the samples' units times the root of places, six decades at
+    most; details that are zero are grey. At levels with more details than 512, neighbours share a column, which shows the
+    largest.
+
+    Parameters
+    ----------
+    model : Model or Deformer
+        Of any dimension, with one level at least.
+    ax : matplotlib Axes, optional
+        Loses some of its width to the colour bar.
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Examples
+    --------
+    >>> model = ifsm.Model(np.arange(65) % 5)
+    >>> axes = ifsm.plot.scalogram(model.keep(details=20))
+    >>> axes.images[0].get_array().shape                   # levels, details of the finest one
+    (4, 32)
+    """
+    function = "ifsm.plot.scalogram"
+    shown = _shown(model, function, "model")
+    if shown.levels == 0:
+        raise invalid_value(function, "model", "model has no levels, and so no details; give one that has.")
+    sizes = _sizes(shown)
+    ax = _checked_axes(ax, function) if ax is not None else _figure(figsize=(7, 4)).subplots()
+    palette = matplotlib.colormaps["viridis"].with_extremes(bad=_ZERO)
+    picture = ax.imshow(sizes, aspect="auto", extent=(0, 1, shown.levels - 0.5, -0.5), cmap=palette,
+                        interpolation="nearest")  # levels are apart, and must not run into each other
+    low, high = _range(sizes)
+    picture.set_clim(low, high)
+    bar = ax.figure.colorbar(picture, ax=ax, extend="min" if (sizes < low).any() else "neither")
+    bar.set_label(r"$\log_{10}$ of significance" + (" (grey: zero)" if sizes.mask.any() else ""))
+    ax.yaxis.set_major_locator(MaxNLocator(integer=True))
+    return _label(ax, "parameter", "level (0: coarsest)")
+
+
+def _sizes(model):
+    """log10 of significances, of shape (levels, columns); those of zeros are masked."""
+    rows = [model.significance(level) for level in range(model.levels)]
+    columns = max(len(row) for row in rows if len(row) <= max(_COLUMNS, len(rows[0])))
+    return np.ma.log10(np.ma.masked_equal([_in_columns(row, columns) for row in rows], 0))
+
+
+def _in_columns(row, columns):
+    """Each value as wide as its node; of several in a column the largest. One of the two counts divides the other."""
+    if len(row) <= columns:
+        return np.repeat(row, columns // len(row))
+    return row.reshape(columns, -1).max(axis=1)
+
+
+def _range(sizes):
+    if sizes.mask.all():
+        return 0, 1
+    return max(sizes.min(), sizes.max() - _DECADES), sizes.max()
+
+
+def residuals(model, sketch, *, ax=None):
+    """Draw the distances between samples of the same number, over the model's parameters, and their RMS.
+
+    Parameters
+    ----------
+    model, sketch : Model or Deformer
+        Of as many samples, and of one dimension.
+    ax : matplotlib Axes, optional
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Examples
+    --------
+    >>> model = ifsm.Model(np.column_stack([np.arange(65), np.arange(65) % 5]))
+    >>> axes = ifsm.plot.residuals(model, model.keep(details=20))
+    >>> axes.lines[0].get_ydata().shape
+    (65,)
+    """
+    function = "ifsm.plot.residuals"
+    exact, near = _shown(model, function, "model"), _shown(sketch, function, "sketch")
+    _same_dimension(exact, near, function, "sketch")
+    if near.sample_count != exact.sample_count:
+        raise invalid_value(function, "sketch", f"sketch has {near.sample_count} samples, and model {exact.sample_count}; "
+                            "give a sketch of that model.", Status.SHAPE, required=exact.sample_count)
+    distances = np.linalg.norm(near.samples() - exact.samples(), axis=1)
+    rms = exact.distance(near).rms
+    ax = _checked_axes(ax, function) if ax is not None else _figure(figsize=(7, 3.5)).subplots()
+    ax.plot(exact.parameters(), distances, linewidth=_width(len(distances)), label="distance")
+    ax.axhline(rms, color="C1", linestyle="--", linewidth=1.4, label=f"RMS {rms:.4g}")
+    if rms > 0:
+        ax.set_ylim(0, max(ax.get_ylim()[1], 1.25 * distances.max()))  # room for the legend above the line
+    ax.legend(loc="upper right", ncol=2, fontsize="small")
+    return _label(ax, "parameter", "distance from the model")
+
+
+# ---- what is drawn ------------------------------------------------------------------------------------------------
+
+
+def _shown(given, function, argument):
+    """The model to draw: a deformer's as it is at the moment."""
+    if not isinstance(given, (Model, Deformer)):
+        raise invalid_type(function, argument, given, "an ifsm.Model or an ifsm.Deformer")
+    if given._native is None:
+        raise Closed(f"{argument} was closed; give one that is not.", Status.INVALID_HANDLE, function, argument)
+    return given.snapshot() if isinstance(given, Deformer) else given
+
+
+def _drawable(given, function, argument):
+    shown = _shown(given, function, argument)
+    if shown.dimension > len(_COORDINATES):
+        raise invalid_value(function, argument, f"{argument} has {shown.dimension} dimensions; curves of 1 to 3 can be "
+                            "drawn: make a model of some of its coordinates.", Status.SHAPE)
+    return shown
+
+
+def _same_dimension(first, second, function, argument):
+    if second.dimension != first.dimension:
+        raise invalid_value(function, argument, f"{argument} has {second.dimension} dimensions, and model "
+                            f"{first.dimension}; give two of the same.", Status.SHAPE, required=first.dimension)
+
+
+def _closed(model, points):
+    """Points of a level as a line: rings under square filters do not repeat their first point by themselves."""
+    if model.closed and model.filter.topology == "square":
+        return np.concatenate([points, points[:1]])
+    return points
+
+
+def _over(points):
+    """Columns to plot: of one dimension values over the parameter."""
+    return (np.linspace(0, 1, len(points)), points[:, 0]) if points.shape[1] == 1 else tuple(points.T)
+
+
+def _draw(ax, points, *, beside=None, **line):
+    """A line, with its points where they are few. Given the curve it lies `beside`, it does not take all of the view."""
+    few = len(points) <= _FEW
+    style = {"linewidth": _width(len(points)), "marker": "." if few else "none", **line}
+    columns = _over(points)
+    if _in_space(ax):
+        return ax.plot(*columns, **style)[0]
+    if beside is None:
+        return ax.plot(*columns[:2], **style)[0]
+    drawn = ax.add_artist(Line2D(*columns[:2], **style))  # which, other than plot(), leaves the view as it is
+    _view(ax, np.column_stack(columns[:2]), np.column_stack(_over(beside)[:2]))
+    return drawn
+
+
+def _view(ax, points, curve):
+    """Let the view hold a curve, and points that are not far beside it."""
+    low, high = curve.min(axis=0), curve.max(axis=0)
+    air = _AIR * (high - low)
+    near = ((low - air <= points) & (points <= high + air)).all(axis=1)
+    ax.update_datalim(np.concatenate([curve, points[near]]))
+    ax.autoscale_view()
+
+
+def _draw_polygon(ax, polygon, curve, color):
+    _draw(ax, polygon, beside=curve, label="control polygon", color=color, alpha=0.6, linestyle="--", linewidth=1,
+          marker="o", markersize=4)
+
+
+def _width(count):
+    return 0.8 if count > _MANY else 1.4
+
+
+def _in_space(ax):
+    return ax.name == "3d"
+
+
+# ---- axes ---------------------------------------------------------------------------------------------------------
+
+
+def _figure(**options):
+    from matplotlib import pyplot  # late: it chooses a backend
+
+    return pyplot.figure(layout="constrained", **options)
+
+
+def _checked_axes(ax, function):
+    if not isinstance(ax, Axes):
+        raise invalid_type(function, "ax", ax, "matplotlib axes, or None")
+    return ax
+
+
+def _axes(ax, model, function):
+    return _checked_axes(ax, function) if ax is not None else _grid(model, 1)[0]
+
+
+def _axes_of_levels(ax, model, count, function):
+    if ax is None:
+        return _grid(model, count)
+    axes = np.ravel(np.asarray(ax, dtype=object))
+    for each in axes:
+        _checked_axes(each, function)
+    if len(axes) != count:
+        raise invalid_value(function, "ax", f"ax holds {len(axes)} axes; give {count}.", Status.SHAPE, required=count)
+    return axes
+
+
+def _grid(model, count):
+    """So many axes in a figure of their own, in rows of `_ABREAST`."""
+    columns = min(count, _ABREAST)
+    rows = -(-count // columns)
+    space = model.dimension == 3
+    figure = _figure(**{"figsize": (_PANEL * columns, _PANEL * rows)} if count > 1 else {})
+    axes = figure.subplots(rows, columns, sharex=not space, sharey=not space, squeeze=False,
+                           subplot_kw={"projection": "3d"} if space else {}).ravel()
+    for unused in axes[count:]:
+        unused.remove()
+    if space:
+        for each in axes[:count]:
+            each.locator_params(nbins=4 if count == 1 else 3)  # more numbers would lie upon each other
+    return axes[:count]
+
+
+def _arrange(axes, model):
+    """Small multiples as high as what they show, with labels at the outer ones alone."""
+    columns = min(len(axes), _ABREAST)
+    if model.dimension == 2:
+        ratio = np.ptp(axes[0].get_ylim()) / np.ptp(axes[0].get_xlim())
+        axes[0].figure.set_figheight(-(-len(axes) // columns) * (_PANEL * min(max(ratio, 0.3), 2) + 0.5))
+    if model.dimension == 3:
+        return
+    for index, ax in enumerate(axes):
+        lowest = index + columns >= len(axes)
+        ax.tick_params(labelbottom=lowest)
+        ax.set_xlabel(ax.get_xlabel() if lowest else "")
+        ax.set_ylabel("" if index % columns else ax.get_ylabel())
+
+
+def _finish(ax, model):
+    """Axes labels, units, and a legend where there is something to tell apart."""
+    if model.dimension == 1:
+        _label(ax, "parameter", "value")
+    else:
+        hidden = " (first two of 3 coordinates)" if model.dimension == 3 and not _in_space(ax) else ""
+        _label(ax, "x" + hidden, "y")
+        _equal_units(ax)
+    if len(ax.get_legend_handles_labels()[0]) > 1:
+        # in space no curve is seen in the corners
+        ax.legend(loc="upper left" if _in_space(ax) else "best", fontsize="small")
+    return ax
+
+
+def _equal_units(ax):
+    if not _in_space(ax):
+        ax.set_aspect("equal")
+        return
+    if not ax.get_zlabel():
+        ax.set_zlabel("z")
+    sides = [np.ptp(limits()) for limits in (ax.get_xlim3d, ax.get_ylim3d, ax.get_zlim3d)]
+    ax.set_box_aspect(sides, zoom=_ZOOM)
+
+
+def _label(ax, x, y):
+    if not ax.get_xlabel():
+        ax.set_xlabel(x)
+    if not ax.get_ylabel():
+        ax.set_ylabel(y)
+    return ax
