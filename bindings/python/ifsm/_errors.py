@@ -98,7 +98,6 @@ _CLASSES = {
     Status.BUSY: Busy,
     Status.MEMORY: OutOfMemory,
     Status.NUMERICAL: NumericalError,
-    Status.SINGULAR: InvalidValue,
     Status.INTERNAL: InternalError,
 }
 _WRONG_TYPE = -1

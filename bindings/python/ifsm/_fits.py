@@ -390,7 +390,8 @@ def _all(curves, function):
     return read
 
 
-def _one(given, function, argument):
+def _one(given, function, argument, closed=None):
+    """(points, closed) of one curve; a tuple says itself whether it is closed."""
     if isinstance(given, tuple) and len(given) == 2 and isinstance(given[1], (bool, np.bool_)):
-        return _curves.curve(given[0], given[1], function, argument)
-    return _curves.curve(given, None, function, argument)
+        given, closed = given
+    return _curves.curve(given, closed, function, argument)

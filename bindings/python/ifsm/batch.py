@@ -11,8 +11,6 @@ import contextlib
 import uuid
 from typing import NamedTuple
 
-import numpy as np
-
 from . import _arrays, _curves, _fits
 from ._errors import Cancelled, Error, Status, invalid_type, invalid_value
 from ._models import DISTANCES, Model
@@ -139,7 +137,7 @@ class _Work:
         for key, given in named:
             self._order.append(key)
             try:
-                points, ring = _read(given, closed)
+                points, ring = _fits._one(given, _FUNCTION, "points", closed)
             except Error as error:
                 self._errors[key] = error
             else:
@@ -245,13 +243,6 @@ def _named(curves):
     if isinstance(curves, (str, bytes)) or not isinstance(curves, collections.abc.Iterable):
         raise invalid_type(_FUNCTION, "curves", curves, "curves: a list, an iterator, a dict, or a geometry")
     return enumerate(curves), len(curves) if isinstance(curves, collections.abc.Sized) else None
-
-
-def _read(given, closed):
-    """(points, closed) of one curve; a tuple says itself whether it is closed."""
-    if isinstance(given, tuple) and len(given) == 2 and isinstance(given[1], (bool, np.bool_)):
-        given, closed = given
-    return _curves.curve(given, closed, _FUNCTION)
 
 
 def _checked(**options):
