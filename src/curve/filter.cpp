@@ -84,23 +84,6 @@ Eigen::MatrixXd sum_zero_basis(int n) {
   return basis;
 }
 
-// A change of basis in which the maps look as contractive as they are together: the square root of the limit of
-// H ← I + c Σ A_i^T H A_i, c < 1/N slowed so that it converges for every contractive set.
-void balance(std::vector<Eigen::MatrixXd>& maps) {
-  const Index size = maps[0].rows();
-  Eigen::MatrixXd h = Eigen::MatrixXd::Identity(size, size);
-  for (int step = 0; step < 60; ++step) {
-    Eigen::MatrixXd next = Eigen::MatrixXd::Identity(size, size);
-    for (const auto& a : maps) next += a.transpose() * h * a;
-    h = next / next.norm();
-    h += 1e-9 * Eigen::MatrixXd::Identity(size, size);
-  }
-  const Eigen::MatrixXd upper = cholesky(h);
-  if (upper.size() == 0) return;
-  const Eigen::MatrixXd back = inverse(upper);
-  for (auto& a : maps) a = (upper * a * back).eval();
-}
-
 // Does every infinite word have a prefix whose product has a norm below 1? Then all long products shrink. Words are
 // lengthened only until they are short enough, so a few products decide most cases.
 class Prefixes {
@@ -130,20 +113,6 @@ class Prefixes {
   const std::vector<Eigen::MatrixXd>& letters_;
   Index products_ = 0;
 };
-
-// A word whose spectral radius is not below 1, among the shortest ones.
-bool some_word_grows(const std::vector<Eigen::MatrixXd>& letters) {
-  std::vector<Eigen::MatrixXd> words = letters;
-  for (int length = 1; length <= 4 && words.size() <= 256; ++length) {
-    for (const auto& word : words)
-      if (!(spectral_radius(word) < 1)) return true;
-    std::vector<Eigen::MatrixXd> longer;
-    for (const auto& word : words)
-      for (const auto& letter : letters) longer.push_back(word * letter);
-    words = std::move(longer);
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -207,10 +176,12 @@ Contractivity contractivity_of(const Shape& shape, const Eigen::Ref<const RowMat
   std::vector<Eigen::MatrixXd> letters;
   for (int i = 0; i < shape.maps(); ++i)
     letters.push_back(basis.transpose() * maps.middleCols(first_column(shape, i), n) * basis);
-  balance(letters);
+  const Eigen::MatrixXd upper = balancing(letters), back = inverse(upper);
+  for (auto& letter : letters) letter = (upper * letter * back).eval();
 
   if (Prefixes(letters).all_shrink()) return Contractivity::proven;
-  return some_word_grows(letters) ? Contractivity::refuted : Contractivity::undecided;
+  constexpr int longest = 4;
+  return growing_word(letters, longest) ? Contractivity::refuted : Contractivity::undecided;
 }
 
 }  // namespace ifsm::core

@@ -5,13 +5,11 @@
 #include <memory>
 
 #include "curve/shape.h"
+#include "linalg/contractivity.h"
 
 namespace ifsm::core {
 
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-// Do all long products of the T_i shrink vectors of sum zero?
-enum class Contractivity : std::int32_t { refuted = -1, undecided = 0, proven = 1 };
 
 class Filter {
  public:
@@ -21,8 +19,8 @@ class Filter {
   const Shape& shape() const { return shape_; }
   const RowMatrix& matrix() const { return matrix_; }
   const RowMatrix& inverse() const { return inverse_; }
-  double condition() const { return condition_; }  // 2-norm
-  Contractivity contractivity() const { return contractivity_; }
+  double condition() const { return condition_; }                 // 2-norm
+  Contractivity contractivity() const { return contractivity_; }  // of the T_i, on vectors of sum zero
 
   // T_i, n × n.
   RowMatrix map(int i) const;
