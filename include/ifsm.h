@@ -165,8 +165,18 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_cancel_requested(ifsm_cancel cancel, int
 /* Calls that hold the token finish undisturbed. {0} is fine. Errors: INVALID_HANDLE. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_cancel_destroy(ifsm_cancel cancel);
 
-/* fraction grows from 0 to 1; stage is a word, borrowed. Return non-zero to cancel. */
+/* fraction grows from 0 to 1; stage is a word, borrowed. Return non-zero to cancel. Told at least every 50 ms, or when
+ * as much time has passed as its last call took: one that is slow costs half of the time at most. */
 typedef int32_t (*ifsm_progress_callback)(void *user, double fraction, const char *stage);
+
+/* Return non-zero to cancel. */
+typedef int32_t (*ifsm_interrupt_callback)(void *user);
+
+/* What every call of this thread asks about every 50 ms, unless it is given a progress callback, also one that takes
+ * no cancel token: whether to stop, which it does with IFSM_ERROR_CANCELLED, leaving nothing behind. For an
+ * interpreter's Ctrl-C. A new one takes the last one's place; NULL, the default, asks nothing. Stretches that cannot be
+ * interrupted: an allocation, sorting. `user` is handed through. Errors: none. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_set_interrupt(ifsm_interrupt_callback ask, void *user);
 
 /* ------------------------------------------------------------------------------------------------------------
  * Filters: the matrix R = (T_0 … T_N-1 over U_0 … U_N-1), and how neighbouring polygons share their places

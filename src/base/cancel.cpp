@@ -8,7 +8,25 @@ namespace {
 
 constexpr auto patience = std::chrono::milliseconds(50);  // half of what a cancel may take
 
+// Nothing that would have to be destroyed with its thread.
+struct {
+  Interrupt ask;
+  void* user;
+  std::chrono::steady_clock::time_point asked;
+} thread_local constinit interrupt{};
+
 }  // namespace
+
+void set_interrupt(Interrupt ask, void* user) {
+  interrupt = {ask, user, ask != nullptr ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{}};
+}
+
+void poll_interrupt() {
+  if (interrupt.ask == nullptr || std::chrono::steady_clock::now() - interrupt.asked < patience) return;
+  const bool stop = interrupt.ask(interrupt.user) != 0;
+  interrupt.asked = std::chrono::steady_clock::now();
+  if (stop) throw Cancelled{};
+}
 
 Watch::Watch(const CancelToken* token, Progress progress)
     : token_(token), progress_(std::move(progress)), owner_(std::this_thread::get_id()), asked_(Clock::now()) {}
@@ -17,16 +35,23 @@ void Watch::report(double fraction, const char* stage) {
   if (token_ != nullptr && token_->requested()) throw Cancelled{};
   reported_ = std::max(reported_, std::min(fraction, 1.0));
   stage_ = stage;
-  asked_ = Clock::now();
-  if (progress_ && progress_(reported_, stage_)) throw Cancelled{};
+  constexpr auto quick = std::chrono::milliseconds(1);
+  if (!progress_) return poll_interrupt();
+  if (took_ < quick || told_ != stage_ || Clock::now() - asked_ >= took_) tell();
 }
 
 void Watch::ask_again() const {
-  if (std::this_thread::get_id() != owner_) return;
-  const auto now = Clock::now();
-  if (now - asked_ < patience) return;
-  asked_ = now;
-  if (progress_(reported_, stage_)) throw Cancelled{};
+  if (std::this_thread::get_id() == owner_ && Clock::now() - asked_ >= std::max<Clock::duration>(patience, took_))
+    tell();
+}
+
+void Watch::tell() const {
+  const auto start = Clock::now();
+  told_ = stage_;
+  const bool stop = progress_(reported_, stage_);
+  asked_ = Clock::now();
+  took_ = asked_ - start;
+  if (stop) throw Cancelled{};
 }
 
 Watch Watch::part(double from, double to) {

@@ -10,6 +10,8 @@
 #include <map>
 #include <mutex>
 
+#include "base/cancel.h"
+
 namespace ifsm::core {
 namespace {
 
@@ -103,7 +105,10 @@ void parallel_for(std::int64_t chunks, int threads, const std::function<void(std
   const int asked = threads > 0 ? threads : of_this_thread.most;
   const int wanted = asked > 0 ? asked : default_threads();
   if (chunks <= 1 || wanted == 1) {
-    for (std::int64_t chunk = 0; chunk < chunks; ++chunk) body(chunk);
+    for (std::int64_t chunk = 0; chunk < chunks; ++chunk) {
+      poll_interrupt();
+      body(chunk);
+    }
     return;
   }
   const auto run = [&] {
@@ -111,6 +116,7 @@ void parallel_for(std::int64_t chunks, int threads, const std::function<void(std
         std::int64_t{0}, chunks,
         [&](std::int64_t chunk) {
           const Inside inside(wanted);
+          poll_interrupt();
           body(chunk);
         },
         tbb::simple_partitioner{});

@@ -24,7 +24,8 @@ class Threads {
 
 // Calls body(chunk) once for every chunk in 0 … chunks - 1, on at most `threads` threads (0: as Threads, else the
 // default says). Chunks must not write to the same place. The first exception that a chunk throws is thrown again here,
-// after all have ended. A body may call parallel_for itself: what it does then shares the same threads.
+// after all have ended. Before a chunk its thread's interrupt is polled. A body may call parallel_for itself: what it
+// does then shares the same threads.
 void parallel_for(std::int64_t chunks, int threads, const std::function<void(std::int64_t chunk)>& body);
 
 }  // namespace ifsm::core

@@ -8,6 +8,10 @@
 
 using namespace ifsm::core;
 
+ifsm_status ifsm_set_interrupt(ifsm_interrupt_callback ask, void* user) {
+  return guarded(__func__, [&] { set_interrupt(ask, user); });
+}
+
 ifsm_status ifsm_cancel_create(ifsm_cancel* cancel) {
   return guarded(__func__, [&] { issue(std::make_shared<CancelToken>(), required(cancel, "cancel")); });
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/cancel.h"
+
 namespace ifsm::core {
 namespace {
 
@@ -179,9 +181,12 @@ Points evaluate(const Model& model, Curve curve, std::span<const double> paramet
                 "The filter's maps do not contract, so the curve has no limit; evaluate the polyline instead.");
   Points result(model.dimension(), static_cast<Index>(parameters.size()));
   const Places places(model, curve == Curve::polyline ? parameters.size() : 0);
-  for (std::size_t i = 0; i < parameters.size(); ++i)
+  Polled polled;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    polled.step();
     result.matrix().row(static_cast<Index>(i)) =
         curve == Curve::limit ? limit_point(model, parameters[i]) : polyline_point(model, places, parameters[i]);
+  }
   return from_center(std::move(result), model.parts().center);
 }
 

@@ -121,6 +121,7 @@ ModelPtr analyze(const FilterPtr& filter, const Points& samples, bool closed, in
         .with(levels)
         .needs(needed);
   const int chosen = levels == 0 ? needed : levels;
+  shape.require_memory(chosen, samples.dimension());
 
   ModelParts parts;
   parts.filter = filter;
@@ -156,6 +157,7 @@ ModelPtr from_polygon(const FilterPtr& filter, const Points& polygon, bool close
   require_in_range_of_doubles(parts.diagonal);
   parts.largest_polygon = largest_coordinate(parts.polygon);
   const int checked = shape.checked_levels(levels);
+  shape.require_memory(checked, polygon.dimension());
   for (int level = 0; level < checked; ++level)
     parts.details.push_back(std::make_shared<Points>(polygon.dimension(), shape.detail_count(level)));
   parts.samples = shape.places(checked, closed);

@@ -70,14 +70,19 @@ RowMatrix joined_columns(const Shape& shape, const RowMatrix& side_by_side) {
 FilterPtr from_known(const Known& known, Topology topology, int control_points, int maps) {
   const bool fits = (control_points == 0 || control_points == known.control_points) &&
                     (maps == 0 || maps == known.maps) && (topology == Topology::square || known.joined_too);
-  if (!fits)
+  if (!fits) {
+    const bool other_points = control_points != 0 && control_points != known.control_points;
+    const bool other_maps = maps != 0 && maps != known.maps;
     throw Error(Status::range,
-                control_points != 0 && control_points != known.control_points ? "control_points"
-                : maps != 0 && maps != known.maps                             ? "maps"
-                                                                              : "topology",
+                other_points ? "control_points"
+                : other_maps ? "maps"
+                             : "topology",
                 "The filter \"" + std::string(known.name) + "\" has " + std::to_string(known.control_points) +
-                    " control points and " + std::to_string(known.maps) + " maps and is " +
-                    (known.joined_too ? "joined or square" : "square only") + "; give 0 for its own numbers.");
+                    (known.control_points == 1 ? " control point and " : " control points and ") +
+                    std::to_string(known.maps) + " maps and is " +
+                    (known.joined_too ? "joined or square" : "square only") +
+                    (other_points || other_maps ? "; give 0 for its own numbers." : "; ask for the square topology."));
+  }
   const Shape shape(topology, known.control_points, known.maps, known.stride);
   RowMatrix t =
       Eigen::Map<const RowMatrix>(known.entries.data(), known.control_points, known.control_points * known.maps) /

@@ -1,5 +1,7 @@
 #include "curve/shape.h"
 
+#include "base/memory.h"
+
 namespace ifsm::core {
 namespace {
 
@@ -55,6 +57,10 @@ int Shape::checked_levels(Index levels) const {
           .with(static_cast<double>(levels));
   }
   return static_cast<int>(in_range(levels, 0, 40, "levels"));
+}
+
+void Shape::require_memory(int levels, Index dimension) const {
+  core::require_memory(checked_product(2 * dimension, line_length(levels), "levels"), "levels");
 }
 
 }  // namespace ifsm::core

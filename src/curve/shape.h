@@ -42,6 +42,8 @@ class Shape {
   int levels_for(Index samples, bool closed) const;
   // Refuses levels whose places pass 2^40.
   int checked_levels(Index levels) const;
+  // Refuses levels whose finest line and details, of so many coordinates, are more than the machine's memory.
+  void require_memory(int levels, Index dimension) const;
 
   friend bool operator==(const Shape&, const Shape&) = default;
 

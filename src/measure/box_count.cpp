@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/cancel.h"
+
 namespace ifsm::core {
 namespace {
 
@@ -116,7 +118,9 @@ Index Lattice::visits_at_most(Index side) const {
 
 Index Lattice::count(Index side) const {
   Visits visits(visits_at_most(side));
+  Polled polled;
   for (Index segment = 0; segment < segments_; ++segment) {
+    polled.step();
     const Index next = segment + 1 < count_ ? segment + 1 : 0;
     Walk(values_.data() + segment * dimension_, values_.data() + next * dimension_, dimension_, side).visit(visits);
   }

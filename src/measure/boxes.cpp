@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/cancel.h"
+
 namespace ifsm::core {
 namespace {
 
@@ -19,7 +21,9 @@ Boxes::Boxes(const Polyline& polyline) : dimension_(polyline.dimension()), segme
   const Index leaves = (segments_ + run - 1) / run;
   std::vector<double> boxes;
   boxes.reserve(static_cast<std::size_t>(leaves * 2 * dimension_));
+  Polled polled;
   for (Index leaf = 0; leaf < leaves; ++leaf) {
+    polled.step();
     const Index first = first_segment(leaf);
     for (int corner = 0; corner < 2; ++corner)
       boxes.insert(boxes.end(), polyline.start(first), polyline.start(first) + dimension_);

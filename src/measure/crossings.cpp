@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/cancel.h"
 #include "measure/boxes.h"
 #include "measure/orientation.h"
 
@@ -186,6 +187,7 @@ bool meet(const Boxes& boxes, int level, Index a, Index b) {
 void descend(const Boxes& boxes, Pairs& pairs, int level, Index a, Index b) {
   if (a != b && !meet(boxes, level, a, b)) return;
   if (level == 0) {
+    poll_interrupt();
     for (Index p = boxes.first_segment(a); p < boxes.end_segment(a); ++p)
       for (Index q = a == b ? p + 1 : boxes.first_segment(b); q < boxes.end_segment(b); ++q) pairs.compare(p, q);
     return;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/cancel.h"
 #include "measure/box_count.h"
 #include "measure/length.h"
 
@@ -70,7 +71,9 @@ double steps_of(const Polyline& polyline, double step) {
   const Index d = polyline.dimension();
   Vector from = Map(polyline.start(0), d);
   double steps = 0;
+  Polled polled;
   for (Index segment = 0; segment < polyline.segments(); ++segment) {
+    polled.step();
     const Vector a = Map(polyline.start(segment), d), b = Map(polyline.end(segment), d);
     double within = 0;
     while ((b - from).norm() >= step) {

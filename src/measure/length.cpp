@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/cancel.h"
+
 namespace ifsm::core {
 namespace {
 
@@ -17,7 +19,9 @@ ArcLength::ArcLength(const Polyline& polyline) : polyline_(polyline) {
   at_point_.push_back(0);
   // Neumaier's sum: what each addition rounds away is kept, so the error does not grow with the number of segments.
   double sum = 0, lost = 0;
+  Polled polled;
   for (Index segment = 0; segment < polyline.segments(); ++segment) {
+    polled.step();
     const double length = polyline.length(segment);
     const double next = sum + length;
     lost += sum >= length ? (sum - next) + length : (length - next) + sum;
@@ -65,8 +69,11 @@ std::vector<double> equally_spaced(const Polyline& polyline, Index count) {
   const auto pieces = static_cast<double>(polyline.closed() || count == 1 ? count : count - 1);
   std::vector<double> parameters;
   parameters.reserve(static_cast<std::size_t>(count));
-  for (Index k = 0; k < count; ++k)
+  Polled polled;
+  for (Index k = 0; k < count; ++k) {
+    polled.step();
     parameters.push_back(lengths.parameter(static_cast<double>(k) / pieces * lengths.total()));
+  }
   if (!polyline.closed() && count > 1 && polyline.segments() > 0) parameters.back() = 1;
   return parameters;
 }
@@ -95,9 +102,12 @@ std::vector<double> spaced(const Polyline& polyline, double spacing) {
   std::vector<double> parameters;
   parameters.reserve(static_cast<std::size_t>(count));
   parameters.push_back(0);
-  for (Index k = 1; k < count; ++k)
+  Polled polled;
+  for (Index k = 1; k < count; ++k) {
+    polled.step();
     parameters.push_back(
         lengths.parameter(std::min(static_cast<double>(k) * (spacing / polyline.unit()), lengths.total())));
+  }
   return parameters;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/cancel.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "linalg/spectrum.h"
@@ -103,8 +104,11 @@ class Sizes {
   Sizes(const Points& places, Index step, double expected)
       : same_(places.dimension() == 1), all_(std::sqrt(expected)), most_(0), weight_(0) {
     std::vector<double> lengths;
-    for (Index k = 0; k + step < places.count(); k += step)
+    Polled polled;
+    for (Index k = 0; k + step < places.count(); k += step) {
+      polled.step();
       lengths.push_back((places.matrix().row(k + step) - places.matrix().row(k)).stableNorm());
+    }
     most_ = root_mean_square(lengths);
     for (double& length : lengths) length = std::min(length, most_);
     weight_ = root_mean_square(lengths);
@@ -125,7 +129,9 @@ void fill_gaps(Points& places, const std::vector<char>& known, const Texture& te
                const Displacements& displacements, int maps) {
   const Sizes sizes(places, maps, texture.next / texture.decay);
   Index last = 0;
+  Polled polled;
   for (Index place = 1; place < places.count(); ++place) {
+    polled.step();
     if (known[static_cast<std::size_t>(place)] == 0) continue;
     if (place - last == maps) {
       const Direction way = places.matrix().row(place) - places.matrix().row(last);
@@ -165,7 +171,7 @@ void require_refinement(const Model& model, const Refinement& asked) {
     throw Error(Status::range, "roughness",
                 "roughness is " + text_of(asked.roughness) + "; give a factor that is not negative.")
         .with(asked.roughness);
-  model.shape().checked_levels(model.levels() + asked.levels);
+  model.shape().require_memory(model.shape().checked_levels(model.levels() + asked.levels), model.dimension());
 }
 
 }  // namespace

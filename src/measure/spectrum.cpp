@@ -19,11 +19,13 @@ double implied_dimension(Index dimension, double hurst) {
   return hurst > 1 / most ? std::max(1 / hurst, 1.0) : most;
 }
 
-void fit(Spectrum& told, Index dimension) {
+// Levels of rounding alone tell nothing: samples are known to epsilon of the curve's size, and analysis adds some.
+void fit(Spectrum& told, Index dimension, double diagonal) {
+  const double rounding = 4 * std::numeric_limits<double>::epsilon() * diagonal;
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> x, y;
   for (int level = told.first; level <= told.last; ++level)
-    if (const auto l = static_cast<std::size_t>(level); told.rms[l] > 0) {
+    if (const auto l = static_cast<std::size_t>(level); told.rms[l] > rounding) {
       x.push_back(std::log(told.scales[l]));
       y.push_back(std::log(told.rms[l]));
     }
@@ -47,7 +49,7 @@ Spectrum spectrum(const Model& model) {
   told.first = 2;
   told.last = model.levels() - 2;
   if (told.last - told.first < 2) told.first = 0, told.last = model.levels() - 1;
-  fit(told, model.dimension());
+  fit(told, model.dimension(), model.parts().diagonal);
   return told;
 }
 

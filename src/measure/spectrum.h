@@ -13,8 +13,8 @@ struct Spectrum {
   std::vector<double> scales;  // the share of the curve, in parameter, that a node spans: N^-level
   std::vector<double> rms;     // root mean square, over all places, of what the level's details do to the curve, in the
                                // samples' units: details times their gains
-  // rms ~ scale^hurst, by least squares on the logarithms of the levels first … last that are not zero. Fewer than
-  // three: all three are not a number.
+  // rms ~ scale^hurst, by least squares on the logarithms of the levels first … last that are above rounding. Fewer
+  // than three: all three are not a number.
   int first, last;
   double hurst;
   double standard_error;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -151,6 +152,84 @@ TEST(Watch, APartIsCancelledWithTheWhole) {
   token.request();
   EXPECT_THROW(part.poll(), Cancelled);
   EXPECT_THROW(part.report(0.5, "s"), Cancelled);
+}
+
+using std::chrono::milliseconds;
+using Clock = std::chrono::steady_clock;
+
+TEST(Watch, LeavesTimeForWorkWhenItsCallbackIsSlow) {
+  // Slower than the time between two questions: were it timed from its start, every poll would ask.
+  constexpr auto slow = milliseconds(70);
+  int asked = 0, polls_between = 0, fewest = 1 << 30;
+  const Watch watch(nullptr, [&](double, const char*) {
+    if (asked > 0) fewest = std::min(fewest, polls_between);
+    polls_between = 0;
+    std::this_thread::sleep_for(slow);
+    return ++asked == 3;
+  });
+  EXPECT_THROW(
+      for (;;) {
+        watch.poll();
+        ++polls_between;
+      },
+      Cancelled);
+  EXPECT_GT(fewest, 100) << "polls are a look at the clock; 70 ms hold thousands";
+}
+
+TEST(Watch, TellsASlowCallbackOfSomeReportsAndOfEveryStage) {
+  std::vector<std::string> stages;
+  Watch watch(nullptr, [&](double, const char* stage) {
+    stages.emplace_back(stage);
+    std::this_thread::sleep_for(milliseconds(20));
+    return false;
+  });
+  for (int k = 0; k < 1000; ++k) watch.report(k / 2000., "first");
+  EXPECT_LT(stages.size(), 100u);
+  watch.report(.5, "second");
+  watch.finish();
+  ASSERT_GE(stages.size(), 3u);
+  EXPECT_EQ(stages[stages.size() - 2], "second");
+  EXPECT_EQ(stages.back(), "done");
+}
+
+class Interrupted : public testing::Test {
+ protected:
+  ~Interrupted() override { set_interrupt(nullptr, nullptr); }
+  int asked_ = 0;
+  static std::int32_t third_time(void* asked) { return ++*static_cast<int*>(asked) == 3; }
+};
+
+TEST_F(Interrupted, ACallWithoutAWatchEndsWhenItsThreadsInterruptSaysSo) {
+  EXPECT_NO_THROW(poll_interrupt());
+  set_interrupt(third_time, &asked_);
+  const auto start = Clock::now();
+  EXPECT_THROW(for (;;) poll_interrupt(), Cancelled);
+  EXPECT_EQ(asked_, 3);
+  EXPECT_GE(Clock::now() - start, milliseconds(149)) << "it is asked now and then, not always";
+  std::thread([] {
+    for (int k = 0; k < 1000; ++k) {
+      poll_interrupt();
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    }
+  }).join();
+  EXPECT_EQ(asked_, 3) << "other threads have their own";
+}
+
+TEST_F(Interrupted, AWatchWithoutACallbackAsksTheInterrupt) {
+  set_interrupt(third_time, &asked_);
+  Watch watch;
+  EXPECT_THROW(for (;;) watch.poll(), Cancelled);
+  asked_ = 0;
+  Watch told(nullptr, [](double, const char*) { return false; });
+  const auto start = Clock::now();
+  while (Clock::now() - start < milliseconds(200)) told.poll();
+  EXPECT_EQ(asked_, 0);
+}
+
+TEST_F(Interrupted, LoopsOfCheapStepsPollNowAndThen) {
+  set_interrupt(third_time, &asked_);
+  Polled polled;
+  EXPECT_THROW(for (;;) polled.step(), Cancelled);
 }
 
 }  // namespace

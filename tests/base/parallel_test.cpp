@@ -205,4 +205,16 @@ TEST(DefaultThreads, AreWhatWasSet) {
   set_default_threads(0);
 }
 
+TEST(ParallelFor, IsLeftWhenTheCallersInterruptSaysSo) {
+  for (const int threads : {1, 2, 4}) {
+    int asked = 0;
+    set_interrupt([](void* count) -> std::int32_t { return ++*static_cast<int*>(count) == 2; }, &asked);
+    EXPECT_THROW(
+        parallel_for(100000, threads, [](std::int64_t) { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }),
+        Cancelled);
+    EXPECT_EQ(asked, 2);
+    set_interrupt(nullptr, nullptr);
+  }
+}
+
 }  // namespace

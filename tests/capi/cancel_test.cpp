@@ -104,4 +104,61 @@ TEST(Handle, MayBeDestroyedWhileOtherThreadsUseIt) {
   }
 }
 
+// A curve without details, whose questions take long: 2^22 + 1 places.
+class Interrupt : public testing::Test {
+ protected:
+  void SetUp() override {
+    const double polygon[] = {0, 0, 1, 2, 3, 0};
+    const ifsm_curve curve{polygon, 3, 2, 0};
+    ifsm_filter filter{};
+    WORKS(ifsm_filter_named("casteljau", IFSM_TOPOLOGY_JOINED, 3, 2, &filter));
+    WORKS(ifsm_model_from_polygon(filter, &curve, 21, &model_));
+    WORKS(ifsm_filter_destroy(filter));
+  }
+  void TearDown() override {
+    WORKS(ifsm_set_interrupt(nullptr, nullptr));
+    WORKS(ifsm_model_destroy(model_));
+  }
+  static int32_t at_once(void* asked) { return ++*static_cast<int*>(asked) > 0; }
+  static int32_t never(void* asked) {
+    ++*static_cast<int*>(asked);
+    return 0;
+  }
+
+  ifsm_model model_{};
+  int asked_ = 0;
+};
+
+TEST_F(Interrupt, EndsCallsThatTakeNoCancelToken) {
+  WORKS(ifsm_set_interrupt(at_once, &asked_));
+  ifsm_model refined{};
+  FAILS(ifsm_model_refine(model_, nullptr, &refined), IFSM_ERROR_CANCELLED, "");
+  EXPECT_EQ(refined.id, 0u);
+  EXPECT_EQ(asked_, 1);
+  int64_t count = -1;
+  std::vector<double> parameters(1 << 22, 7.0);
+  FAILS(ifsm_model_spaced(model_, 1 << 22, 0, parameters.data(), 1 << 22, &count), IFSM_ERROR_CANCELLED, "");
+  EXPECT_EQ(count, -1);
+  EXPECT_EQ(parameters, std::vector<double>(1 << 22, 7.0)) << "nothing is half-written";
+}
+
+TEST_F(Interrupt, IsAskedOfCallsOfItsOwnThreadAlone) {
+  WORKS(ifsm_set_interrupt(at_once, &asked_));
+  std::thread([&] {
+    double length = 0;
+    WORKS(ifsm_model_length(model_, 0, 1, &length));
+    EXPECT_GT(length, 3);
+  }).join();
+  EXPECT_EQ(asked_, 0);
+}
+
+TEST_F(Interrupt, ThatSaysGoOnChangesNothing) {
+  double alone = 0, asked = 0;
+  WORKS(ifsm_model_length(model_, 0, 1, &alone));
+  WORKS(ifsm_set_interrupt(never, &asked_));
+  for (int k = 0; asked_ == 0 && k < 1000; ++k) WORKS(ifsm_model_length(model_, 0, 1, &asked));
+  EXPECT_GT(asked_, 0);
+  EXPECT_EQ(asked, alone);
+}
+
 }  // namespace

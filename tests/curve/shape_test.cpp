@@ -86,4 +86,12 @@ TEST(Shape, RefusesTreesBeyondTheLimitWithoutOverflow) {
   }
 }
 
+TEST(Shape, RefusesTreesThatNoMemoryHoldsBeforeAnythingIsAllocated) {
+  const Shape shape(Topology::joined, 3, 2);
+  EXPECT_NO_THROW(shape.require_memory(10, 2));
+  const Error error = refusal([&] { shape.require_memory(38, 4); });  // 64 TiB
+  EXPECT_EQ(error.status(), Status::memory);
+  EXPECT_EQ(error.argument(), "levels");
+}
+
 }  // namespace
