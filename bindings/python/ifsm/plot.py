@@ -31,6 +31,7 @@ _FEW = 60  # points that are seen one by one
 _MANY = 1000  # points from which on a usual line hides what it shows
 _FIRST_LEVELS = 5  # that `levels` shows beside the finest: later ones look like it at this size
 _AIR = 0.5  # of the curve's extent: how far beside it the view goes for control points; those of a ring may be anywhere
+_WIDE_AIR = 2.0  # where control points are what is shown
 _ABREAST, _PANEL = 3, 3.0  # small multiples in a row, and how wide, in inches
 _COLUMNS = 512  # of a scalogram, at most: about the pixels of its figure's axes, so that none of them is lost
 _DECADES = 6  # below the largest detail: those that a palette tells apart, and far above rounding
@@ -80,11 +81,13 @@ def curve(model, *, ax=None, control_polygon=True, levels=None, details=None, **
     if details is not None:
         shown = shown.keep(details=details)
     points = _closed(shown, shown.points(levels=levels))
-    ax = _axes(ax, shown, function)
+    own, ax = ax is None, _axes(ax, shown, function)
     drawn = _draw(ax, points, **{"label": "curve" if levels is None else f"level {levels}", **line})
     if control_polygon:
-        _draw_polygon(ax, shown.control_points, points, drawn.get_color())
-    return _finish(ax, shown)
+        # On axes of somebody's own, a legend is theirs to ask for: by a label.
+        named = own or "label" in line
+        _draw_polygon(ax, shown.control_points, points, drawn.get_color(), "control polygon" if named else "_polygon")
+    return _finish(ax, shown, own)
 
 
 def before_after(model, deformed, *, ax=None, control_polygon=False):
@@ -96,7 +99,8 @@ def before_after(model, deformed, *, ax=None, control_polygon=False):
         Of one dimension, 1 to 3. The numbers of their samples may differ.
     ax : matplotlib Axes, optional
     control_polygon : bool
-        Whether to draw that of `deformed`.
+        Whether to draw that of `deformed`. Control points farther beside the curve than twice its extent are left out
+        of view.
 
     Returns
     -------
@@ -112,13 +116,13 @@ def before_after(model, deformed, *, ax=None, control_polygon=False):
     function = "ifsm.plot.before_after"
     before, after = _drawable(model, function, "model"), _drawable(deformed, function, "deformed")
     _same_dimension(before, after, function, "deformed")
-    ax = _axes(ax, before, function)
+    own, ax = ax is None, _axes(ax, before, function)
     _draw(ax, _closed(before, before.points()), label="before", color="0.6", linewidth=0.7)
     points = _closed(after, after.points())
     drawn = _draw(ax, points, label="after", color="C0")
     if control_polygon:
-        _draw_polygon(ax, after.control_points, points, drawn.get_color())
-    return _finish(ax, before)
+        _draw_polygon(ax, after.control_points, points, drawn.get_color(), air=_WIDE_AIR)
+    return _finish(ax, before, own)
 
 
 def levels(model, which=None, *, ax=None, overlay=False):
@@ -159,7 +163,7 @@ def levels(model, which=None, *, ax=None, overlay=False):
     else:
         _small_multiples(axes, chosen, lines, finest)
     for each in axes:
-        _finish(each, shown)
+        _finish(each, shown, ax is None)
     if ax is None and len(axes) > 1:
         _arrange(axes, shown)
     return axes
@@ -283,7 +287,9 @@ def residuals(model, sketch, *, ax=None):
     ax = _checked_axes(ax, function) if ax is not None else _figure(figsize=(7, 3.5)).subplots()
     ax.plot(exact.parameters(), distances, linewidth=_width(len(distances)), label="distance")
     ax.axhline(rms, color="C1", linestyle="--", linewidth=1.4, label=f"RMS {rms:.4g}")
-    if rms > 0:
+    if rms == 0:
+        ax.set_ylim(0, 1)
+    else:
         ax.set_ylim(0, max(ax.get_ylim()[1], 1.25 * distances.max()))  # room for the legend above the line
     ax.legend(loc="upper right", ncol=2, fontsize="small")
     return _label(ax, "parameter", "distance from the model")
@@ -327,7 +333,7 @@ def _over(points):
     return (np.linspace(0, 1, len(points)), points[:, 0]) if points.shape[1] == 1 else tuple(points.T)
 
 
-def _draw(ax, points, *, beside=None, **line):
+def _draw(ax, points, *, beside=None, air=_AIR, **line):
     """A line, with its points where they are few. Given the curve it lies `beside`, it does not take all of the view."""
     few = len(points) <= _FEW
     style = {"linewidth": _width(len(points)), "marker": "." if few else "none", **line}
@@ -337,21 +343,21 @@ def _draw(ax, points, *, beside=None, **line):
     if beside is None:
         return ax.plot(*columns[:2], **style)[0]
     drawn = ax.add_artist(Line2D(*columns[:2], **style))  # which, other than plot(), leaves the view as it is
-    _view(ax, np.column_stack(columns[:2]), np.column_stack(_over(beside)[:2]))
+    _view(ax, np.column_stack(columns[:2]), np.column_stack(_over(beside)[:2]), air)
     return drawn
 
 
-def _view(ax, points, curve):
+def _view(ax, points, curve, air):
     """Let the view hold a curve, and points that are not far beside it."""
     low, high = curve.min(axis=0), curve.max(axis=0)
-    air = _AIR * (high - low)
+    air = air * (high - low)
     near = ((low - air <= points) & (points <= high + air)).all(axis=1)
     ax.update_datalim(np.concatenate([curve, points[near]]))
     ax.autoscale_view()
 
 
-def _draw_polygon(ax, polygon, curve, color):
-    _draw(ax, polygon, beside=curve, label="control polygon", color=color, alpha=0.6, linestyle="--", linewidth=1,
+def _draw_polygon(ax, polygon, curve, color, label="control polygon", air=_AIR):
+    _draw(ax, polygon, beside=curve, air=air, label=label, color=color, alpha=0.6, linestyle="--", linewidth=1,
           marker="o", markersize=4)
 
 
@@ -416,7 +422,7 @@ def _arrange(axes, model):
         ratio = np.ptp(axes[0].get_ylim()) / np.ptp(axes[0].get_xlim())
         axes[0].figure.set_figheight(-(-len(axes) // columns) * (_PANEL * min(max(ratio, 0.3), 2) + 0.5))
     if model.dimension == 3:
-        return
+        return _arrange_in_space(axes)
     for index, ax in enumerate(axes):
         lowest = index + columns >= len(axes)
         ax.tick_params(labelbottom=lowest)
@@ -424,7 +430,18 @@ def _arrange(axes, model):
         ax.set_ylabel("" if index % columns else ax.get_ylabel())
 
 
-def _finish(ax, model):
+def _arrange_in_space(axes):
+    """Boxes of one size, which can be compared; labels at the first alone, since no layout sees them."""
+    finest = axes[-1]
+    for index, ax in enumerate(axes):
+        ax.set(xlim3d=finest.get_xlim3d(), ylim3d=finest.get_ylim3d(), zlim3d=finest.get_zlim3d())
+        ax.set_box_aspect([np.ptp(limits()) for limits in (ax.get_xlim3d, ax.get_ylim3d, ax.get_zlim3d)], zoom=_ZOOM)
+        ax.tick_params(labelsize="x-small", pad=0)
+        if index > 0:
+            ax.set(xlabel="", ylabel="", zlabel="")
+
+
+def _finish(ax, model, own):
     """Axes labels, units, and a legend where there is something to tell apart."""
     if model.dimension == 1:
         _label(ax, "parameter", "value")
@@ -432,8 +449,10 @@ def _finish(ax, model):
         hidden = " (first two of 3 coordinates)" if model.dimension == 3 and not _in_space(ax) else ""
         _label(ax, "x" + hidden, "y")
         _equal_units(ax)
-    if len(ax.get_legend_handles_labels()[0]) > 1:
-        # in space no curve is seen in the corners
+    told = len(ax.get_legend_handles_labels()[0])
+    if told > 1 and own and not _in_space(ax):  # above, where it covers nothing
+        ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncol=min(told, 3), frameon=False, fontsize="small")
+    elif told > 1:  # in space no curve is seen in the corners
         ax.legend(loc="upper left" if _in_space(ax) else "best", fontsize="small")
     return ax
 
