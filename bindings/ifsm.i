@@ -65,6 +65,7 @@
 
 // What is not for languages: memory, structs that borrow, the record behind exceptions.
 %ignore ifsm_last_error;
+%ignore ifsm_set_interrupt;  // the affair of a language's typemaps, which know its Ctrl-C
 %ignore ifsm_error;
 %ignore ifsm_curve;
 %ignore ifsm_fit_samples;

@@ -5,12 +5,15 @@
 #include <Python.h>
 #include <ifsm.h>
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
 #include <limits>
 #include <new>
+#include <thread>
 #include <vector>
 
 #include "../options.h"
@@ -46,8 +49,33 @@ inline void raise_error(int status, const char *function, const char *argument, 
   Py_DECREF(error);
 }
 
+// What was raised while C was at work, until C has returned.
+struct Kept {
+  PyObject *type = nullptr, *value = nullptr, *traceback = nullptr;
+
+  bool is_empty() const { return type == nullptr; }
+  void fetch() { PyErr_Fetch(&type, &value, &traceback); }
+  void raise() {
+    PyErr_Restore(type, value, traceback);
+    type = value = traceback = nullptr;
+  }
+  void drop() {
+    Py_XDECREF(type);
+    Py_XDECREF(value);
+    Py_XDECREF(traceback);
+    type = value = traceback = nullptr;
+  }
+};
+
+// What this thread's interrupt raised: KeyboardInterrupt, mostly.
+inline Kept &interrupted() {
+  thread_local Kept kept;
+  return kept;
+}
+
 // What the C call that has just failed on this thread told.
 inline void raise_last_error() {
+  if (!interrupted().is_empty()) return interrupted().raise();
   ifsm_error told{};
   told.struct_size = sizeof told;
   if (ifsm_last_error(&told) != IFSM_OK) return PyErr_SetString(PyExc_SystemError, "ifsm_last_error failed.");
@@ -66,7 +94,10 @@ struct Argument {
   }
   bool wants(const char *what, PyObject *given) const {
     PyErr_Clear();
-    return refuse(wrong_type, PyUnicode_FromFormat("%s is a %s; give %s.", name, Py_TYPE(given)->tp_name, what));
+    if (given == Py_None) return refuse(wrong_type, PyUnicode_FromFormat("%s is None; give %s.", name, what));
+    const char *type = Py_TYPE(given)->tp_name;
+    const bool vowel = std::strchr("aeiouAEIOU", *type) != nullptr;
+    return refuse(wrong_type, PyUnicode_FromFormat("%s is %s %s; give %s.", name, vowel ? "an" : "a", type, what));
   }
 };
 
@@ -346,15 +377,93 @@ class Known {
 // ------------------------------------------------------------------------------------------------------------------
 // The interpreter's lock, and callbacks
 
-class Released {
+// The way to the interpreter's lock. CPython before 3.14 ends threads that ask for it while the interpreter ends, by
+// unwinding them, through C++ frames: that aborts. So once `close` has run, at exit, other threads wait for the
+// process's end instead; those that were on their way it lets through.
+class Door {
  public:
-  Released() : state_(PyEval_SaveThread()) {}
-  Released(const Released &) = delete;
-  Released &operator=(const Released &) = delete;
-  ~Released() { PyEval_RestoreThread(state_); }
+  template <class Take>
+  static void pass(const Take &take) {
+    ++entering();
+    if (closed() && closer() != std::this_thread::get_id()) {
+      --entering();
+      for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+    }
+    take();
+    --entering();
+  }
+
+  static void close() {
+    closer() = std::this_thread::get_id();
+    closed() = true;
+    // A thread that a fork has lost never arrives.
+    for (int patience = 0; entering() > 0 && patience < 200; ++patience) {
+      PyThreadState *state = PyEval_SaveThread();
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      PyEval_RestoreThread(state);
+    }
+  }
 
  private:
+  static std::atomic<int> &entering() {
+    static std::atomic<int> count{0};
+    return count;
+  }
+  static std::atomic<bool> &closed() {
+    static std::atomic<bool> yes{false};
+    return yes;
+  }
+  static std::thread::id &closer() {
+    static std::thread::id thread;
+    return thread;
+  }
+};
+
+class Locked {
+ public:
+  Locked() {
+    Door::pass([this] { state_ = PyGILState_Ensure(); });
+  }
+  Locked(const Locked &) = delete;
+  Locked &operator=(const Locked &) = delete;
+  ~Locked() { PyGILState_Release(state_); }
+
+ private:
+  PyGILState_STATE state_;
+};
+
+// Without the lock, while the library works; calls without a progress callback ask meanwhile whether Ctrl-C was
+// pressed.
+class Released {
+ public:
+  Released() : outer_(inside()) {
+    inside() = true;
+    static_cast<void>(ifsm_set_interrupt(ask, nullptr) == IFSM_OK);
+    state_ = PyEval_SaveThread();
+  }
+  Released(const Released &) = delete;
+  Released &operator=(const Released &) = delete;
+  ~Released() {
+    Door::pass([this] { PyEval_RestoreThread(state_); });
+    inside() = outer_;
+    static_cast<void>(ifsm_set_interrupt(outer_ ? ask : nullptr, nullptr) == IFSM_OK);
+  }
+
+ private:
+  static std::int32_t ask(void *) {
+    const Locked locked;
+    if (interrupted().is_empty() && PyErr_CheckSignals() == 0) return 0;
+    if (interrupted().is_empty()) interrupted().fetch();
+    return 1;
+  }
+  // Is this call made by a callback of another one of this thread?
+  static bool &inside() {
+    thread_local bool yes = false;
+    return yes;
+  }
+
   PyThreadState *state_;
+  bool outer_;
 };
 
 // Stands between the library and a callable (or None): what that raises, or Ctrl-C, waits here until the library has
@@ -364,11 +473,7 @@ class Progress {
   Progress() = default;
   Progress(const Progress &) = delete;
   Progress &operator=(const Progress &) = delete;
-  ~Progress() {
-    Py_XDECREF(type_);
-    Py_XDECREF(value_);
-    Py_XDECREF(traceback_);
-  }
+  ~Progress() { kept_.drop(); }
 
   bool take(PyObject *given, Argument argument) {
     if (given != Py_None && !PyCallable_Check(given)) return argument.wants("a callable or None", given);
@@ -377,35 +482,32 @@ class Progress {
   }
 
   static std::int32_t tell(void *user, double fraction, const char *stage) {
-    const PyGILState_STATE state = PyGILState_Ensure();
-    const std::int32_t stop = static_cast<Progress *>(user)->ask(fraction, stage);
-    PyGILState_Release(state);
-    return stop;
+    const Locked locked;
+    return static_cast<Progress *>(user)->ask(fraction, stage);
   }
 
   // In place of the error that cancelling led to, what was raised.
   void raise_again() {
-    if (type_ == nullptr || !PyErr_Occurred()) return;
+    if (kept_.is_empty() || !PyErr_Occurred()) return;
     PyErr_Clear();
-    PyErr_Restore(type_, value_, traceback_);
-    type_ = value_ = traceback_ = nullptr;
+    kept_.raise();
   }
 
  private:
   std::int32_t ask(double fraction, const char *stage) {
-    if (type_ != nullptr) return 1;
+    if (!kept_.is_empty()) return 1;
     int stop = PyErr_CheckSignals();
     if (stop == 0 && callable_ != Py_None) {
       PyObject *answer = PyObject_CallFunction(callable_, "ds", fraction, stage);
       stop = answer == nullptr ? -1 : PyObject_IsTrue(answer);
       Py_XDECREF(answer);
     }
-    if (stop < 0) PyErr_Fetch(&type_, &value_, &traceback_);
+    if (stop < 0) kept_.fetch();
     return stop == 0 ? 0 : 1;
   }
 
   PyObject *callable_ = Py_None;
-  PyObject *type_ = nullptr, *value_ = nullptr, *traceback_ = nullptr;
+  Kept kept_;
 };
 
 // The process's log: a callable that is kept. What it raises is told and goes no further.
@@ -415,7 +517,7 @@ inline PyObject *&log_sink() {
 }
 
 inline void log_line(void *, std::int32_t level, const char *text) {
-  const PyGILState_STATE state = PyGILState_Ensure();
+  const Locked locked;
   if (PyObject *sink = log_sink()) {
     Py_INCREF(sink);
     PyObject *answer = PyObject_CallFunction(sink, "is", static_cast<int>(level), text);
@@ -423,7 +525,8 @@ inline void log_line(void *, std::int32_t level, const char *text) {
     Py_XDECREF(answer);
     Py_DECREF(sink);
   }
-  PyGILState_Release(state);
 }
+
+inline void close_door() { Door::close(); }
 
 }  // namespace ifsm_python

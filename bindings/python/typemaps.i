@@ -11,7 +11,7 @@
 
 // Statuses. The interpreter's lock is free while the library works, but where that takes less than giving it away.
 %typemap(out) ifsm_status {
-  if ($1 != IFSM_OK) {
+  if ($1 != IFSM_OK || !ifsm_python::interrupted().is_empty()) {
     ifsm_python::raise_last_error();
     SWIG_fail;
   }
@@ -155,8 +155,10 @@ IFSM_TOLD(ifsm_deformer_info, info)
 
 // What makes exceptions: maker(status, function, argument, index, value, required, message).
 %exception ifsm_python::set_error_maker { $action }
+%exception ifsm_python::close_door { $action }
 %typemap(out) std::uintptr_t { $result = PyLong_FromUnsignedLongLong($1); }
 namespace ifsm_python {
 std::uintptr_t address_of(const double *DOUBLES, int64_t DOUBLE_COUNT);
 void set_error_maker(PyObject *maker);
+void close_door();  // at exit
 }

@@ -11,6 +11,8 @@ Arrays are NumPy's, of shape (points, dimension). Whatever is refused raises a s
 argument, the index and the value. Models and filters are immutable and may be shared between threads; long calls run
 without the interpreter's lock, and Ctrl-C cancels them.
 """
+import atexit
+
 from . import _native
 from ._curves import curves
 from ._deformers import Deformer
@@ -78,6 +80,8 @@ def __getattr__(name):
 def __dir__():
     return sorted([*globals(), "plot", "batch"])
 
+
+atexit.register(_native.close_door)
 
 for _name in __all__:
     globals()[_name].__module__ = __name__  # where people find them

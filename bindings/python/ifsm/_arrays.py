@@ -11,14 +11,40 @@ def doubles(given, function, argument):
     try:
         array = np.asarray(given)
     except (ValueError, TypeError):  # of ragged lists, and of objects that will not be arrays
-        array = np.empty(0, dtype=object)
-    if array.dtype.kind not in "fiu":
-        if array.dtype == object and _is_ragged(given):
-            raise invalid_value(function, argument, f"{argument} has rows of different lengths; give as many numbers "
-                                "for each point.", Status.SHAPE)
-        raise invalid_type(function, argument, given, "real numbers")
+        array = None
+    except RecursionError:
+        raise invalid_value(function, argument, f"{argument} is nested too deeply; give rows of numbers.",
+                            Status.SHAPE) from None
+    if array is None or array.dtype.kind not in "fiu":
+        raise _not_numbers(given, array, function, argument)
+    if np.ma.is_masked(given):
+        index = int(np.flatnonzero(np.ma.getmaskarray(given))[0])
+        raise invalid_value(function, argument, f"{argument}[{index}] is masked; remove it, or fill it with a number.",
+                            index=index)
     array = np.asarray(array, dtype=np.float64, order="C")
     return array if array.flags.aligned else array.copy()
+
+
+def _not_numbers(given, array, function, argument):
+    if (array is None or array.dtype == object) and _is_ragged(given):
+        return invalid_value(function, argument, f"{argument} has rows of different lengths; give as many numbers for each "
+                             "point.", Status.SHAPE)
+    columns = getattr(given, "dtypes", None)  # of a table of pandas
+    if columns is not None and hasattr(columns, "items"):
+        for name, dtype in columns.items():
+            if getattr(dtype, "kind", "O") not in "fiu":
+                return invalid_type(function, argument, given, f"real numbers: its column {name!r} is of dtype {dtype}")
+    if array is not None and (array.dtype != object or isinstance(given, np.ndarray)):
+        return invalid_type(function, argument, given, f"real numbers: its dtype is {array.dtype}"
+                            + ("; .astype(float) converts it" if array.dtype == object else ""))
+    return invalid_type(function, argument, given, "real numbers")
+
+
+def is_true(given, function, argument):
+    """A bool, of Python or NumPy, and nothing that is only like one."""
+    if isinstance(given, (bool, np.bool_)):
+        return bool(given)
+    raise invalid_type(function, argument, given, "True or False")
 
 
 def _is_ragged(given):
@@ -52,7 +78,8 @@ def integers(given, function, argument, dtype):
         raise invalid_type(function, argument, given, "an integer or a list of them")
     limits = np.iinfo(dtype)
     for index in np.flatnonzero((array < limits.min) | (array > limits.max))[:1]:
-        raise invalid_value(function, argument, f"{argument}[{index}] is {array[index]}; give at most {limits.max}.",
+        raise invalid_value(function, argument, f"{argument}[{index}] is {array[index]}; give one from {limits.min} to "
+                            f"{limits.max}.",
                             index=int(index), value=float(array[index]))
     return np.ascontiguousarray(array, dtype=dtype)
 

@@ -21,7 +21,7 @@ def curve(given, closed, function, argument="points"):
     else:
         points = given
     points = _arrays.table(points, function, argument)
-    closed = bool(closed)
+    closed = closed is not None and _arrays.is_true(closed, function, "closed")
     if closed and len(points) > 1 and np.array_equal(points[0], points[-1]):
         points = points[:-1]
     count, dimension = points.shape

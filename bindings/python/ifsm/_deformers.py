@@ -21,7 +21,8 @@ EASINGS = {"smooth": _native.IFSM_EASING_SMOOTH, "linear": _native.IFSM_EASING_L
 class Deformer(Handled):
     """A model being edited: moves, pins, drags, other looks and textures, with undo, time, and texture that follows.
 
-    Level l has *handles*, the points ``model.points(levels=l)``; level 0's are the control points. Edits return the
+    Level l has *handles*, the points ``model.points(levels=l)`` (a ring's first one is not repeated); level 0's are the
+    control points. Edits return the
     deformer, so that they can be chained; one that fails leaves it as it was. One thread at a time: a second one gets
     `Busy`.
 
@@ -106,7 +107,7 @@ class Deformer(Handled):
         function = "ifsm.Deformer.move"
         moved = _handles(handles, function)
         _native.ifsm_deformer_move(
-            self._held(), level, moved, self._points(vectors, len(moved), function, "vectors", "handles"), bool(places),
+            self._held(), level, moved, self._points(vectors, len(moved), function, "vectors", "handles"), _arrays.is_true(places, function, "places"),
             _arrays.choice(reach, REACHES, function, "reach"), _arrays.choice(falloff, FALLOFFS, function, "falloff"),
             _arrays.choice(ruler, RULERS, function, "ruler"), radius)
         return self
@@ -218,7 +219,8 @@ class Deformer(Handled):
                                 f"{model.levels}.", value=level)
         if count is None:
             count = self._handle_count(level) - _arrays.whole(first, "ifsm.Deformer.points", "first")
-        doubles = _native.ifsm_deformer_points(self._held(), level, first, count, None)
+        with naming(number="count"):
+            doubles = _native.ifsm_deformer_points(self._held(), level, first, count, None)
         points = _arrays.output(out, (doubles // model.dimension, model.dimension), "ifsm.Deformer.points")
         _native.ifsm_deformer_points(self._held(), level, first, count, points)
         return points

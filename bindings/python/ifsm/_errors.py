@@ -101,6 +101,8 @@ _CLASSES = {
     Status.INTERNAL: InternalError,
 }
 _WRONG_TYPE = -1
+# What texts of the C library recommend.
+_IN_PYTHON = {"ifsm_model_create": "ifsm.Model", "ifsm_filter_from_maps": "ifsm.Filter.from_maps"}
 
 
 def _make(status, function, argument, index, value, required, message):
@@ -110,6 +112,8 @@ def _make(status, function, argument, index, value, required, message):
     if status == _WRONG_TYPE:
         return InvalidType(message, None, function, argument, known, given, wanted)
     code = Status(status)
+    for name, here in _IN_PYTHON.items():
+        message = message.replace(name, here)
     return _CLASSES.get(code, InvalidValue)(message, code, function, argument, known, given, wanted)
 
 
@@ -137,7 +141,14 @@ def rename(error, names):
     told, rest = re.match(r"(\w*)(.*)", error.argument, re.S).groups()
     if told in names:
         error.argument = names[told] + rest
-        error.args = (re.sub(rf"^{told}\b", names[told], error.args[0]), *error.args[1:])
+        error.args = (re.sub(rf"^{told}\b|\b{told}(?=\[)", names[told], error.args[0]), *error.args[1:])
+    return error
+
+
+def of_one(error):
+    """`error` of an array of one element that was given as a number."""
+    error.index = None
+    error.args = (error.args[0].replace(f"{error.argument}[0]", error.argument, 1), *error.args[1:])
     return error
 
 
@@ -153,5 +164,10 @@ def invalid_value(function, argument, message, code=Status.RANGE, **told):
 def _described(given):
     if given is None:
         return "None"
-    text = repr(given)
-    return f"{text} (a {type(given).__name__})" if len(text) <= 40 else f"a {type(given).__name__}"
+    kind = type(given).__name__
+    kind = f"{'an' if kind[0].lower() in 'aeiou' else 'a'} {kind}"
+    try:
+        text = repr(given)
+    except Exception:  # whatever a stranger's repr does
+        return kind
+    return f"{text} ({kind})" if len(text) <= 40 else kind

@@ -2,6 +2,7 @@
 import numpy as np
 
 from . import _arrays, _native
+from ._errors import Status, invalid_value
 from ._objects import Handled
 
 TOPOLOGIES = {"joined": _native.IFSM_TOPOLOGY_JOINED, "square": _native.IFSM_TOPOLOGY_SQUARE}
@@ -19,7 +20,7 @@ class Filter(Handled):
     ----------
     name : str
         ``"coast"`` (joined, 5 points, 2 maps: trained on coastlines), ``"casteljau"`` (any shape: subdivides a Bézier
-        polygon), or, square, ``"haar"``, ``"bspline"``, ``"four-point"``, ``"koch"``, ``"takagi"``.
+        polygon), ``"koch"``, ``"takagi"``, or, square alone, ``"haar"``, ``"bspline"``, ``"four-point"``.
     topology : {"joined", "square"}
     control_points, maps : int
         The shape n, N; 0 for the name's own.
@@ -72,7 +73,14 @@ class Filter(Handled):
     def _made(cls, call, matrix, control_points, maps, topology, stride, name):
         function = f"ifsm.Filter.{name}"
         kind = _arrays.choice(topology, TOPOLOGIES, function, "topology")
-        return cls._of(call(kind, control_points, maps, stride, _arrays.doubles(matrix, function, "matrix")))
+        entries = _arrays.doubles(matrix, function, "matrix")
+        if isinstance(control_points, int) and isinstance(maps, int):
+            columns = (control_points - 1) * maps + 1 if topology == "joined" else control_points * maps
+            shape = (control_points if name == "from_maps" else columns, columns)
+            if entries.shape != shape and 1 <= control_points <= 16 and 2 <= maps <= 8:
+                raise invalid_value(function, "matrix", f"matrix has the shape {entries.shape}; {control_points} control "
+                                    f"points and {maps} maps, {topology}, take {shape}.", Status.SHAPE)
+        return cls._of(call(kind, control_points, maps, stride, entries))
 
     @property
     def topology(self):

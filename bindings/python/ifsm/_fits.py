@@ -4,7 +4,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _arrays, _curves, _native, _progress
-from ._errors import Error, Status, invalid_type, invalid_value, rename
+from ._errors import Error, Status, invalid_type, invalid_value, naming, rename
 from ._filters import Filter
 from ._models import DISTANCES, Model
 from ._objects import Handled, native_of
@@ -97,10 +97,18 @@ class Known:
                                 Status.SHAPE)
         self._constraints = (np.array(kinds, dtype=np.int32), np.array(at, dtype=np.float64),
                              np.ascontiguousarray(np.concatenate(values)) if values else np.empty(0))
-        self._fixed_ends = bool(fixed_ends)
+        self._fixed_ends = _arrays.is_true(fixed_ends, function, "fixed_ends")
 
     def _told(self):
         return (*self._arrays, *self._constraints, self._fixed_ends)
+
+    def __repr__(self):
+        named = zip(("parameters", "weights", "covariances"), self._arrays)
+        parts = [name for name, given in named if given is not None]
+        points = int(np.count_nonzero(self._constraints[0] == _POINT))
+        directions = len(self._constraints[0]) - points
+        parts += [f"through {points} points"] * (points > 0) + [f"along {directions} directions"] * (directions > 0)
+        return f"<ifsm.Known: {', '.join(parts + ['fixed ends'] * self._fixed_ends) or 'nothing'}>"
 
 
 def _pairs(given, function, argument):
@@ -243,7 +251,9 @@ def fit(points, *, closed=None, control_points=None, maps=None, filter=None, bud
     >>> sketch.details_kept
     40
     """
-    samples, ring = _curves.curve(points, closed, "ifsm.fit")
+    samples, ring = _one(points, "ifsm.fit", "points", closed)
+    if within is not None and budget is not None:
+        raise invalid_value("ifsm.fit", "within", "Give a budget or within, not both.")
     budgets = None if budget is None else [_arrays.whole(budget, "ifsm.fit", "budget")]
     try:
         fitted = fit_sparse([(samples, ring)], control_points=control_points, maps=maps, filter=filter, budgets=budgets,
@@ -280,8 +290,12 @@ def fit_sparse(curves, *, control_points=None, maps=None, filter=None, budgets=N
     others : as in `ifsm.fit`
     """
     function = "ifsm.fit_sparse"
+    if isinstance(within, (int, float)) and within == 0:
+        raise invalid_value(function, "within", "within is 0; give a distance above 0, or leave it out.", value=0.0)
     start, n, maps = _start(filter, control_points, maps, function)
     asked = None if budgets is None else _arrays.integers(budgets, function, "budgets", np.int64)
+    if asked is not None and asked.size == 0:
+        raise invalid_value(function, "budgets", "budgets is empty; give one at least, or leave it out.", Status.SHAPE)
     given = _all(curves, function)
     with _progress.telling(progress, function) as told:
         return Fit._of(_native.ifsm_fit_sparse(
@@ -318,13 +332,16 @@ def fit_curve(curves, *, control_points=None, maps=None, filter=None, fixed_filt
     facts = []
     if known is not None and not isinstance(known, (list, tuple)):
         raise invalid_type(function, "known", known, "a list of ifsm.Known")
+    if known is not None and len(known) != len(given):
+        raise invalid_value(function, "known", f"known holds {len(known)} entries for {len(given)} curves; give one for "
+                            "each, None for curves of which nothing is known.", Status.SHAPE, required=len(given))
     for index, fact in enumerate(known or ()):
         if fact is not None and not isinstance(fact, Known):
             raise invalid_type(function, f"known[{index}]", fact, "an ifsm.Known, or None")
         facts.append(_NOTHING_KNOWN if fact is None else fact._told())
-    with _progress.telling(progress, function) as told:
+    with naming(samples="known"), _progress.telling(progress, function) as told:
         return Fit._of(_native.ifsm_fit_curve(
-            given, threads, start, n, maps, bool(fixed_filter),
+            given, threads, start, n, maps, _arrays.is_true(fixed_filter, function, "fixed_filter"),
             _arrays.choice(parameters, PARAMETERS, function, "parameters"), reparameterise,
             _arrays.choice(loss, LOSSES, function, "loss"), loss_scale, levels, starts, iterations, tolerance, facts, None,
             told))
@@ -372,7 +389,12 @@ def _start(filter, control_points, maps, function):
         try:
             filter = Filter(filter, **shape)
         except Error as error:
+            if error.argument == "topology":
+                raise invalid_value(function, "filter", f"filter is {filter!r}, which is square; a fit needs a joined one, "
+                                    "such as 'coast' or 'casteljau'.") from None
             raise rename(error, {"name": "filter"})
+    elif not isinstance(filter, Filter):
+        raise invalid_type(function, "filter", filter, "an ifsm.Filter, or the name of one")
     start = native_of(filter, Filter, function, "filter")
     for name, given, has in (("control_points", control_points, filter.control_points), ("maps", maps, filter.maps)):
         if given is not None and given != has:
@@ -381,9 +403,17 @@ def _start(filter, control_points, maps, function):
     return start, 0, 0
 
 
+def refuse_one_curve(curves, function):
+    """An array of points, given where a list of such is wanted, would be as many curves of two, three samples."""
+    if isinstance(curves, np.ndarray) and curves.ndim == 2 and curves.shape[1] <= 4:
+        raise invalid_value(function, "curves", f"curves is one array of shape {curves.shape}; give a list of arrays, "
+                            "[points] for one curve.", Status.SHAPE)
+
+
 def _all(curves, function):
     if isinstance(curves, (str, bytes, dict)) or not hasattr(curves, "__iter__"):
         raise invalid_type(function, "curves", curves, "a list of curves")
+    refuse_one_curve(curves, function)
     read = [_one(given, function, f"curves[{index}]") for index, given in enumerate(curves)]
     if not read:
         raise invalid_value(function, "curves", "curves is empty; give one at least.", Status.SHAPE, required=1)

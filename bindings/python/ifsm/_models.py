@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from . import _arrays, _curves, _native, _progress
-from ._errors import Error, Status, invalid_type, invalid_value, naming, rename
+from ._errors import Error, Status, invalid_type, invalid_value, naming, of_one, rename
 from ._filters import SQUARE_NAMES, Filter
 from ._objects import Handled, native_of
 
@@ -43,12 +43,12 @@ class Nearest(NamedTuple):
 
 
 class Crossings(NamedTuple):
-    """Where a plane curve meets itself: row k of `first` and `last` are two parameters at one point."""
+    """Where a plane curve meets itself."""
 
     first: np.ndarray
-    """Of shape (meetings, 2)."""
+    """Of shape (meetings, 2): row k has the two parameters at which the curve is at one point."""
     last: np.ndarray
-    """The same, but along pieces that are gone twice, where these end."""
+    """The same numbers; but of a piece that is gone twice, those where it ends."""
     points: np.ndarray
     """Of shape (meetings, 2): the places of `first`."""
 
@@ -130,7 +130,8 @@ class Model(Handled):
         """A model without details: a control polygon of n points, and so many levels below it."""
         polygon = _arrays.table(points, "ifsm.Model.from_polygon", "points")
         chosen = _filter(filter, "ifsm.Model.from_polygon", "filter", len(polygon))
-        return cls._of(_native.ifsm_model_from_polygon(chosen, (polygon, bool(closed)), levels))
+        return cls._of(_native.ifsm_model_from_polygon(chosen, (polygon, _arrays.is_true(closed, "ifsm.Model.from_polygon", "closed")),
+                                                         levels))
 
     # ---- what it is -------------------------------------------------------------------------------------------
 
@@ -210,7 +211,8 @@ class Model(Handled):
 
         Returns
         -------
-        array of shape (samples, dimension): `out`, if given
+        array of shape (samples, dimension): `out`, if given. A ring's first sample is not repeated, even where the points
+        that it was made from repeated it.
         """
         points = _arrays.output(out, (self.sample_count, self.dimension), "ifsm.Model.samples")
         _native.ifsm_model_samples(self._held(), points)
@@ -295,7 +297,8 @@ class Model(Handled):
         levels_within : float
             All of as few levels as do.
         distance : {"rms", "largest", "hausdorff"}
-            What a bound is measured by, and what solving makes small.
+            What a bound is measured by, and what solving makes small. A search by ``"hausdorff"`` takes tens of seconds
+            for thousands of samples.
         resolve : {"none", "values", "choice"}, optional
             Whether what is kept stays as it is, is solved anew, or chosen anew as well. By default ``"choice"`` for
             `details` and `within`, ``"none"`` for the others.
@@ -309,7 +312,7 @@ class Model(Handled):
         given = [name for name, (_, value) in rules.items() if value is not None]
         if len(given) != 1:
             raise invalid_value(function, given[1] if given else "details",
-                                f"Give one of {', '.join(rules)}; {' and '.join(given) or 'none'} is given.")
+                                f"Give one of {', '.join(rules)}; {' and '.join(given) or 'none'} {'are' if len(given) > 1 else 'is'} given.")
         rule, value = rules[given[0]]
         if resolve is None:
             resolve = "choice" if given[0] in ("details", "within") else "none"
@@ -326,19 +329,21 @@ class Model(Handled):
         function = "ifsm.Model.with_control_points"
         return Model._of(_native.ifsm_model_with_control_points(
             self._held(), _arrays.choice(frame, FRAMES, function, "frame"),
-            _arrays.table(points, function, "points", self.dimension)))
+            _rows(points, function, "points", self._info.control_points, self.dimension)))
 
     def with_details(self, level, vectors, *, frame="absolute"):
         """A model with other details at one level, as many as there are."""
         function = "ifsm.Model.with_details"
+        kind = _arrays.choice(frame, FRAMES, function, "frame")
+        count = _native.ifsm_model_details(self._held(), level, kind, None) // self.dimension
         return Model._of(_native.ifsm_model_with_details(
-            self._held(), level, _arrays.choice(frame, FRAMES, function, "frame"),
-            _arrays.table(vectors, function, "vectors", self.dimension)))
+            self._held(), level, kind, _rows(vectors, function, "vectors", count, self.dimension)))
 
     def with_filter(self, filter):
         """A model with another filter of the same shape; control points and details stay."""
+        info = self._info
         return Model._of(_native.ifsm_model_with_filter(
-            self._held(), native_of(filter, Filter, "ifsm.Model.with_filter", "filter")))
+            self._held(), _filter(filter, "ifsm.Model.with_filter", "filter", info.control_points, info.maps)))
 
     def refine(self, levels=1, *, seed=0, learned=0, roughness=None):
         """A model that goes on below the samples, with random details like those that it has.
@@ -354,6 +359,9 @@ class Model(Handled):
         roughness : float, optional
             What the new displacements are multiplied with; 0: none, 1 by default.
         """
+        if isinstance(roughness, numbers.Real) and roughness < 0:
+            raise invalid_value("ifsm.Model.refine", "roughness", f"roughness is {roughness}; give a factor that is not "
+                                "negative.", value=float(roughness))
         rough = 0.0 if roughness is None else -1.0 if isinstance(roughness, numbers.Real) and roughness == 0 else roughness
         return Model._of(_native.ifsm_model_refine(self._held(), levels, seed, learned, rough))
 
@@ -366,11 +374,12 @@ class Model(Handled):
     # ---- questions --------------------------------------------------------------------------------------------
 
     def length(self, start=0.0, stop=1.0):
-        """Arc length between two parameters, in the samples' units."""
+        """Arc length from one parameter to another, in the samples' units: negative on the way back. Parameters of rings
+        go on: from 0.9 across the seam to 1.1."""
         try:
             return _native.ifsm_model_length(self._held(), start, stop)
         except Error as error:
-            raise rename(error, {"from": "start", "_from": "start", "to": "stop"})
+            raise of_one(rename(error, {"from": "start", "_from": "start", "to": "stop"}))
 
     def spaced(self, points=None, *, spacing=None):
         """Parameters of points that are equally far apart along the curve: so many, or so far."""
@@ -395,8 +404,11 @@ class Model(Handled):
         """How the curve bends at parameters, seen at a scale along it; in the plane positive to the left."""
         asked = _arrays.doubles(t, "ifsm.Model.curvature", "t")
         curvatures = np.empty(asked.shape)
-        with naming(parameters="t"):
+        try:
             _native.ifsm_model_curvature(self._held(), scale, asked, curvatures)
+        except Error as error:
+            rename(error, {"parameters": "t"})
+            raise error if asked.ndim else of_one(error)
         return curvatures if asked.ndim else float(curvatures)
 
     def crossings(self):
@@ -441,7 +453,12 @@ class Model(Handled):
     def load(cls, path):
         """Read a file that ``save``, or the program ``ifsm``, has written."""
         with open(path, "rb") as file:
-            return cls.from_bytes(file.read())
+            data = file.read()
+        try:
+            return cls.from_bytes(data)
+        except Error as error:
+            error.args = (f"{os.fsdecode(path)}: {error.args[0]}", *error.args[1:])
+            raise
 
     def __eq__(self, other):
         if not isinstance(other, Model):
@@ -499,8 +516,17 @@ def _at(call, first, t, dimension, function):
     try:
         call(*first, parameters, points)
     except Error as error:
-        raise rename(error, {"parameters": "t"})
+        rename(error, {"parameters": "t"})
+        raise error if parameters.ndim else of_one(error)
     return points
+
+
+def _rows(given, function, argument, count, dimension):
+    rows = _arrays.table(given, function, argument, dimension)
+    if len(rows) != count:
+        raise invalid_value(function, argument, f"{argument} has the shape {rows.shape}; give {(count, dimension)}.",
+                            Status.SHAPE, required=count)
+    return rows
 
 
 def crossings(rows):
@@ -521,13 +547,15 @@ def _saved(call, native, format, function):
     return bytes(data)
 
 
-def _filter(filter, function, argument, control_points=0):
+def _filter(filter, function, argument, control_points=0, maps=0):
     """The handle of a filter that is given, or named."""
     if isinstance(filter, str):
         try:
-            return Filter(filter, control_points=control_points)._native
+            return Filter(filter, control_points=control_points, maps=maps)._native
         except Error as error:
             if filter not in SQUARE_NAMES:
                 raise rename(error, {"name": argument}) from None
             return Filter(filter, topology="square")._native
+    if not isinstance(filter, Filter):
+        raise invalid_type(function, argument, filter, "an ifsm.Filter, or the name of one")
     return native_of(filter, Filter, function, argument)

@@ -7,6 +7,11 @@ class Handled:
 
     __slots__ = ("_native", "__weakref__")
 
+    def __new__(cls, *_, **__):
+        self = object.__new__(cls)
+        self._native = None  # until it is made: a subclass may forget to
+        return self
+
     def close(self):
         """Give the object's memory back. Calls that run in other threads finish; later ones raise `Closed`."""
         self._native = None
@@ -22,7 +27,7 @@ class Handled:
         native = self._native
         if native is None:
             name = type(self).__name__
-            raise Closed(f"This {name} was closed; make a new one.", Status.INVALID_HANDLE, f"ifsm.{name}", "self")
+            raise Closed(f"This {name} was closed, or never made: make a new one.", Status.INVALID_HANDLE, f"ifsm.{name}", "self")
         return native
 
 

@@ -95,6 +95,8 @@ def fit(curves, client, *, closed=None, progress=False, control_points=None, map
     _require_synchronous(client, distributed)
     options = _checked(control_points=control_points, maps=maps, filter=filter, budget=budget, within=within,
                        distance=distance, iterations=iterations)
+    if closed is not None:
+        _arrays.is_true(closed, _FUNCTION, "closed")
     named, total = _named(curves)
     with _telling(progress, total) as told, _Work(client, distributed, options, told) as work:
         for task in _tasks(work.readable(named, closed)):
@@ -242,6 +244,7 @@ def _named(curves):
         return iter(curves.items()), len(curves)
     if isinstance(curves, (str, bytes)) or not isinstance(curves, collections.abc.Iterable):
         raise invalid_type(_FUNCTION, "curves", curves, "curves: a list, an iterator, a dict, or a geometry")
+    _fits.refuse_one_curve(curves, _FUNCTION)
     return enumerate(curves), len(curves) if isinstance(curves, collections.abc.Sized) else None
 
 

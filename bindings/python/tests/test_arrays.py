@@ -88,3 +88,20 @@ def test_nothing_is_held_after_a_call(walk):
     gc.collect()
     assert sys.getrefcount(points) == before
     points.resize((100, 2))  # NumPy refuses while a buffer is out
+
+
+def test_masked_values_are_refused_and_not_read(refused):
+    points = np.ma.masked_equal([[0.0, 1.0], [2.0, -9999.0], [3.0, 4.0]], -9999.0)
+    error = refused(lambda: ifsm.Model(points), ValueError, "points")
+    assert error.index == 3
+    assert ifsm.Model(np.ma.array([[0.0, 1.0], [2.0, 3.0]])).sample_count == 2  # a mask that hides nothing
+
+
+def test_what_is_no_number_is_told_by_its_dtype(refused):
+    for given, word in ((np.array([[1, 2], [3, 4]], dtype=object), "astype"), (np.array([[1j, 2], [3, 4]]), "complex"),
+                        (np.array([[True, False], [True, True]]), "bool")):
+        assert word in str(refused(lambda: ifsm.Model(given), TypeError, "points"))
+    nested = []
+    for _ in range(100_000):
+        nested = [nested]
+    refused(lambda: ifsm.Model(nested), ifsm.Error, "points")

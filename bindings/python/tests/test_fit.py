@@ -136,3 +136,28 @@ def test_names_what_is_wrong(walk, refused):
     refused(lambda: ifsm.Known(along=[("a", [1, 2])]), ifsm.InvalidType, "along")
     refused(lambda: ifsm.Known(through=[(0.5, [1, 2])], along=[(0, [1])]), ifsm.InvalidValue, "through")
     assert ifsm.Known(through=[(0.5, 1.0)])._told()[5].tolist() == [1.0]
+
+
+def test_one_curve_where_a_list_is_wanted_is_no_thousand_curves(refused, walk):
+    for call in (ifsm.fit_sparse, ifsm.fit_curve, ifsm.fit_filter, ifsm.train):
+        assert "[points]" in str(refused(lambda: call(walk), ValueError, "curves"))
+    assert ifsm.fit_sparse(np.cumsum(np.ones((2, 65)), axis=1), iterations=1).report.curves == 2  # profiles, as rows
+    assert ifsm.fit((walk, False), iterations=1) == ifsm.fit(walk, iterations=1)
+
+
+def test_nothing_is_ignored_silently(refused, walk):
+    refused(lambda: ifsm.fit(walk, within=0), ValueError, "within")
+    refused(lambda: ifsm.fit(walk, within=1.0, budget=20), ValueError, "within")
+    refused(lambda: ifsm.fit_sparse([walk], budgets=[]), ValueError, "budgets")
+    refused(lambda: ifsm.fit_curve([walk], known=[]), ValueError, "known")
+    refused(lambda: ifsm.fit(walk, closed="no"), TypeError, "closed")
+    assert "joined" in str(refused(lambda: ifsm.fit(walk, filter="haar"), ValueError, "filter"))
+    assert "name" in str(refused(lambda: ifsm.fit(walk, filter=3), TypeError, "filter"))
+    error = refused(lambda: ifsm.fit_curve([walk], known=[ifsm.Known(weights=[1, 2])]), ValueError, None)
+    assert error.argument.startswith("known[0]") and "samples" not in str(error)
+
+
+def test_known_tells_what_is_known():
+    assert repr(ifsm.Known()) == "<ifsm.Known: nothing>"
+    known = ifsm.Known(weights=[1, 2], through=[(0.5, [0, 1])], fixed_ends=True)
+    assert repr(known) == "<ifsm.Known: weights, through 1 points, fixed ends>"

@@ -156,3 +156,33 @@ def test_shows_itself_in_notebooks(model):
     assert model._repr_png_().startswith(b"\x89PNG")
     line = ifsm.Model([[0.0], [1.0], [0.5], [2.0]])
     assert "<svg" in line._repr_html_() and line._repr_png_().startswith(b"\x89PNG")
+
+
+def test_errors_name_what_python_has(refused, model, tmp_path):
+    assert str(refused(lambda: model.length(0, 1.5), ValueError, "stop")).startswith("stop is 1.5")
+    assert str(refused(lambda: model(1.1), ValueError, "t")).startswith("t is 1.1")
+    assert refused(lambda: model([0.5, 1.1]), ValueError, "t").index == 1
+    assert "(5, 2)" in str(refused(lambda: model.with_control_points([[0, 0]]), ValueError, "points"))
+    assert "(4, 2)" in str(refused(lambda: model.with_details(0, [[0, 0]]), ValueError, "vectors"))
+    assert "(9, 9)" in str(refused(lambda: ifsm.Filter.from_matrix(np.eye(3), control_points=5, maps=2), ValueError, "matrix"))
+    transposed = ifsm.Filter("casteljau").matrix[:5].T
+    refused(lambda: ifsm.Filter.from_maps(transposed, control_points=5, maps=2), ValueError, "matrix")
+    assert "square" in str(refused(lambda: ifsm.Filter("haar"), ValueError, "topology"))
+    assert "ifsm.Model" in str(refused(lambda: model.with_filter(ifsm.Filter("casteljau", control_points=3)), ValueError, None))
+    assert model.with_filter("casteljau") == model
+    refused(lambda: model.refine(roughness=-1), ValueError, "roughness")
+    path = tmp_path / "x.csv"
+    path.write_text("x,y")
+    assert str(refused(lambda: ifsm.load(path), ValueError, None)).startswith(str(path))
+    assert repr(ifsm.Model.__new__(ifsm.Model)) == "<ifsm.Model, closed>"
+
+
+def test_sizes_that_no_memory_holds_are_refused_at_once(refused, model):
+    error = refused(lambda: model.refine(30), MemoryError, "levels")
+    assert "GiB" in str(error) and error.required > 2 ** 30
+    refused(lambda: ifsm.Model.from_polygon([[0, 0], [1, 1], [2, 0]], levels=37), MemoryError, "levels")
+
+
+def test_the_spectrum_of_a_straight_line_is_no_measurement():
+    line = ifsm.Model(np.column_stack([np.arange(65.0), np.zeros(65)]), "casteljau")
+    assert np.isnan(line.spectrum().hurst) and np.isnan(line.spectrum().dimension)

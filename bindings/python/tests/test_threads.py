@@ -138,3 +138,78 @@ def test_lines_of_diagnosis_go_to_logging(caplog, walk):
     finally:
         ifsm.log_to(None)
     assert all(record.name == "somewhere" for record in caplog.records)
+
+
+SCRIPT = """
+import threading, time
+import numpy as np
+import ifsm
+big = np.cumsum(np.random.default_rng(1).normal(size=(200_001, 2)), axis=0)
+"""
+
+
+def run(script, timeout=60):
+    return subprocess.run([sys.executable, "-c", SCRIPT + script], capture_output=True, text=True, timeout=timeout)
+
+
+@pytest.mark.parametrize("work", [
+    "ifsm.fit(big)",
+    "ifsm.fit(big, progress=lambda fraction, stage: None)",
+    "ifsm.Model(big).refine(6)",
+])
+def test_a_script_may_end_while_a_daemon_thread_still_computes(work):
+    """CPython before 3.14 would end that thread by unwinding it through C++, which aborts the process."""
+    done = run(f"""
+def forever():
+    while True:
+        {work}
+for _ in range(3):
+    threading.Thread(target=forever, daemon=True).start()
+time.sleep(1)
+print("end")
+""")
+    assert (done.returncode, done.stdout) == (0, "end\n"), done.stderr
+
+
+@pytest.mark.parametrize("work", [
+    "model.refine(6)",
+    "model.spaced(20_000_000)",
+    "model.nearest(np.zeros((2_000_000, 2)))",
+    "model(np.linspace(0, 1, 20_000_000))",
+    "model.crossings()",
+])
+def test_ctrl_c_ends_calls_that_have_no_progress_within_a_tenth_of_a_second(work):
+    """But for arrays that are being made: half a second is allowed."""
+    done = run(f"""
+import os, signal
+model = ifsm.Model(big)
+def interrupt():
+    time.sleep(0.3)
+    global sent
+    sent = time.perf_counter()
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Thread(target=interrupt).start()
+try:
+    while True:
+        {work}
+except KeyboardInterrupt:
+    print(time.perf_counter() - sent)
+assert model.length() > 0
+""")
+    assert done.returncode == 0, done.stderr
+    assert float(done.stdout) < 0.5
+
+
+def test_a_slow_callback_leaves_time_for_the_work(walk):
+    calls = []
+
+    def slow(fraction, stage):
+        calls.append(fraction)
+        time.sleep(0.06)  # longer than the time after which it is asked again
+
+    start = time.perf_counter()
+    model = ifsm.fit(walk, progress=slow)
+    took = time.perf_counter() - start
+    assert model == ifsm.fit(walk)
+    assert calls[-1] == 1
+    assert sum(0.06 for _ in calls) < 0.8 * took + 0.5  # half of the time, but for new stages
