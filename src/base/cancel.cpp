@@ -8,23 +8,26 @@ namespace {
 
 constexpr auto patience = std::chrono::milliseconds(50);  // half of what a cancel may take
 
+using Clock = std::chrono::steady_clock;
+
 // Nothing that would have to be destroyed with its thread.
 struct {
   Interrupt ask;
   void* user;
-  std::chrono::steady_clock::time_point asked;
+  Clock::time_point asked;  // or looked at first: short calls never look at the clock
 } thread_local constinit interrupt{};
 
 }  // namespace
 
-void set_interrupt(Interrupt ask, void* user) {
-  interrupt = {ask, user, ask != nullptr ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point{}};
-}
+void set_interrupt(Interrupt ask, void* user) { interrupt = {ask, user, {}}; }
 
 void poll_interrupt() {
-  if (interrupt.ask == nullptr || std::chrono::steady_clock::now() - interrupt.asked < patience) return;
+  if (interrupt.ask == nullptr) return;
+  const Clock::time_point now = Clock::now();
+  if (interrupt.asked == Clock::time_point{}) interrupt.asked = now;
+  if (now - interrupt.asked < patience) return;
   const bool stop = interrupt.ask(interrupt.user) != 0;
-  interrupt.asked = std::chrono::steady_clock::now();
+  interrupt.asked = Clock::now();
   if (stop) throw Cancelled{};
 }
 
