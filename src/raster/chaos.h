@@ -1,0 +1,62 @@
+// The chaos game: points x_k+1 = w_i(x_k), i drawn by the probabilities, follow the system's measure. Counted by pixel.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/cancel.h"
+#include "system/system.h"
+
+namespace ifsm::core {
+
+// A rectangle of the plane and its pixels, row 0 on top. A pixel owns its left and its upper edge.
+struct Window {
+  double left, bottom, right, top;
+  std::int64_t width, height;
+
+  std::int64_t pixels() const { return width * height; }
+};
+
+// Which pixel of a window a point is in.
+struct Grid {
+  double left, top, columns_per_unit, rows_per_unit;
+  std::int64_t width, height;
+
+  explicit Grid(const Window& w)
+      : left(w.left),
+        top(w.top),
+        columns_per_unit(static_cast<double>(w.width) / (w.right - w.left)),
+        rows_per_unit(static_cast<double>(w.height) / (w.top - w.bottom)),
+        width(w.width),
+        height(w.height) {}
+
+  // Row by row; width · height outside.
+  std::int64_t pixel(double x, double y) const {
+    const double column = (x - left) * columns_per_unit, row = (top - y) * rows_per_unit;
+    if (!(column >= 0 && column < static_cast<double>(width) && row >= 0 && row < static_cast<double>(height)))
+      return width * height;
+    return static_cast<std::int64_t>(row) * width + static_cast<std::int64_t>(column);
+  }
+};
+
+// 1 … 32768 pixels a side, finite, right > left, top > bottom, and pixels that doubles tell apart.
+void require_window(const Window& window);
+
+struct Counts {
+  std::vector<std::uint32_t> pixels;  // row by row; they saturate
+  std::int64_t inside = 0;            // points in the window
+};
+
+// So many points of a plane system, counted. The same seed gives the same counts on any number of threads and on any
+// machine. Points come in chunks of 2^20, of 64 orbits each, which start on the attractor and forget where.
+Counts chaos_counts(const System& system, const Window& window, std::uint64_t seed, std::int64_t points, Watch& watch);
+
+// The same points by a loop of double precision: what the vectors are tested against.
+namespace plain {
+Counts chaos_counts(const System& system, const Window& window, std::uint64_t seed, std::int64_t points);
+}
+
+// Are single precision's points told from double's by nothing but chance, in that window? (docs/systems.md)
+bool single_precision_suffices(const System& system, const Window& window);
+
+}  // namespace ifsm::core

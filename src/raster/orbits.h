@@ -1,0 +1,63 @@
+// The chaos game's inner loop: 64 orbits side by side, whose choices and points do not depend on the machine's vectors.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "raster/chaos.h"
+#include "raster/choice.h"
+#include "raster/histogram.h"
+
+namespace ifsm::core {
+
+constexpr std::size_t orbit_count = 64;
+constexpr std::int64_t points_per_chunk = 1 << 20;
+
+// Random words of each orbit. Source: C. Doty-Humphrey's sfc32, of PractRand; begun by Philox, so that chunks are
+// independent and need no order.
+struct RandomWords {
+  alignas(64) std::array<std::uint32_t, orbit_count> a, b, c, counter;
+
+  RandomWords(std::uint64_t seed, std::uint64_t chunk);
+  std::uint32_t next(std::size_t orbit) {
+    const std::uint32_t word = a[orbit] + b[orbit] + counter[orbit]++;
+    a[orbit] = b[orbit] ^ (b[orbit] >> 9);
+    b[orbit] = c[orbit] + (c[orbit] << 3);
+    c[orbit] = (c[orbit] << 21 | c[orbit] >> 11) + word;
+    return word;
+  }
+};
+
+template <class Real>
+struct Orbits {
+  RandomWords random;
+  alignas(64) std::array<Real, orbit_count> x, y;
+
+  Orbits(std::uint64_t seed, std::uint64_t chunk, const Vector3& start) : random(seed, chunk) {
+    x.fill(static_cast<Real>(start(0)));
+    y.fill(static_cast<Real>(start(1)));
+  }
+};
+
+// Coefficients by slot of the choice: x' = a x + b y + e, y' = c x + d y + f, of a slot's own map and of its other one.
+template <class Real>
+struct Coefficients {
+  explicit Coefficients(const System& system);
+
+  Choice choice;
+  std::vector<Real> a, b, c, d, e, f;  // by number of map, as many as slots
+
+  void step(std::uint32_t random, Real& x, Real& y) const {
+    const auto i = static_cast<std::size_t>(choice(random));
+    const Real next = a[i] * x + b[i] * y + e[i];
+    y = c[i] * x + d[i] * y + f[i];
+    x = next;
+  }
+};
+
+// `steps` steps of all orbits, counted in the pixels of the window, or not at all where there is no tally.
+void run(Orbits<float>& orbits, const Coefficients<float>& maps, const Window& window, std::int64_t steps,
+         const Tally* tally);
+
+}  // namespace ifsm::core
