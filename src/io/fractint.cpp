@@ -1,0 +1,184 @@
+#include "io/fractint.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "base/error.h"
+
+namespace ifsm::core {
+namespace {
+
+constexpr std::size_t most_systems = 1 << 12, most_text = std::size_t{1} << 26;
+
+Error at_line(Status status, std::int64_t line, const std::string& says) {
+  return Error(status, "text", "Line " + std::to_string(line) + ": " + says).at(line);
+}
+
+bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+
+// What a message may hold of a stranger's file.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::string shown(text.substr(0, longest));
+  for (char& c : shown)
+    if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
+  return '"' + shown + (text.size() > longest ? "…\"" : "\"");
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Text that is read from the left; comments, from ";" to the line's end, are spaces.
+class Reader {
+ public:
+  explicit Reader(std::string_view text) : text_(text) {}
+
+  std::int64_t line() const { return line_; }
+
+  // Past spaces and commas.
+  bool at_end() {
+    while (!text_.empty() && (is_space(text_.front()) || text_.front() == ',' || text_.front() == ';')) skip_one();
+    return text_.empty();
+  }
+  char front() const { return text_.front(); }
+  void skip_one() {
+    if (text_.front() == ';') return text_.remove_prefix(std::min(text_.find('\n'), text_.size()));
+    line_ += text_.front() == '\n' ? 1 : 0;
+    text_.remove_prefix(1);
+  }
+
+  // Up to one of some characters, which stays; the text's end is one, too.
+  std::string_view until(std::string_view ends) {
+    const std::size_t length = std::min(text_.find_first_of(ends), text_.size());
+    const std::string_view found = text_.substr(0, length);
+    line_ += std::count(found.begin(), found.end(), '\n');
+    text_.remove_prefix(length);
+    return found;
+  }
+
+ private:
+  std::string_view text_;
+  std::int64_t line_ = 1;
+};
+
+double number(std::string_view word, std::int64_t line) {
+  const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
+  double value = 0;
+  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (problem == std::errc::result_out_of_range || (end == digits.data() + digits.size() && !std::isfinite(value)))
+    throw at_line(Status::not_finite, line, quoted(word) + " is no number that a double holds; give a finite one.");
+  if (problem != std::errc() || end != digits.data() + digits.size())
+    throw at_line(Status::format, line, quoted(word) + " is no number; a system's rows hold numbers up to \"}\".");
+  return value;
+}
+
+// The numbers of a block, its brace left behind.
+std::vector<double> numbers(Reader& reader, int dimension, const std::string& name) {
+  const std::int64_t begin = reader.line();
+  const auto per_map = static_cast<std::size_t>(dimension * (dimension + 1) + 1);
+  std::vector<double> values;
+  for (;;) {
+    if (reader.at_end())
+      throw at_line(Status::format, begin, "The system " + quoted(name) + " has no end; close it by \"}\".");
+    if (reader.front() == '}') break;
+    const std::int64_t line = reader.line();
+    values.push_back(number(reader.until(" \t\r\n\f\v,;}"), line));
+    if (values.size() > per_map * static_cast<std::size_t>(System::most_maps))
+      throw at_line(Status::limit, line, "The system " + quoted(name) + " has more than 256 maps.");
+  }
+  reader.skip_one();
+  if (values.empty() || values.size() % per_map != 0)
+    throw at_line(Status::format, begin,
+                  "The system " + quoted(name) + " has " + std::to_string(values.size()) + " numbers; each map takes " +
+                      std::to_string(per_map) +
+                      (dimension == 2 ? " (write (3D) after the name of one of space)." : "."));
+  return values;
+}
+
+SystemPtr system_of(const std::vector<double>& values, int dimension) {
+  std::vector<Affine> maps;
+  std::vector<double> weights;
+  for (const double* v = values.data(); v != values.data() + values.size();) {
+    Affine map;
+    for (int row = 0; row < dimension; ++row)
+      for (int column = 0; column < dimension; ++column) map.linear(row, column) = *v++;
+    for (int axis = 0; axis < dimension; ++axis) map.shift(axis) = *v++;
+    maps.push_back(map);
+    weights.push_back(*v++);
+  }
+  return std::make_shared<System>(dimension, std::move(maps), std::move(weights));
+}
+
+// A block's name, and whether "(3D)" follows it.
+std::pair<std::string, int> heading(std::string_view text) {
+  constexpr std::string_view space = "(3d)";
+  if (const std::size_t at = lower(text).rfind(space); at != std::string::npos)
+    return {std::string(trimmed(text.substr(0, at))), 3};
+  return {std::string(trimmed(text)), 2};
+}
+
+}  // namespace
+
+std::vector<FractintSystem> read_fractint(std::string_view text) {
+  if (text.size() > most_text) throw at_line(Status::limit, 1, "The file has more than 64 MiB.");
+  Reader reader(text);
+  std::vector<FractintSystem> all;
+  while (!reader.at_end()) {
+    const std::int64_t line = reader.line();
+    const auto [name, dimension] = heading(reader.until("{};\n"));
+    if (reader.at_end() || reader.front() != '{' || name.empty())
+      throw at_line(Status::format, line, quoted(name) + " begins no system; one is a name, then its rows in braces.");
+    reader.skip_one();
+    if (lower(name) == "comment") {
+      while (!reader.at_end() && reader.front() != '}') reader.skip_one();
+      if (reader.at_end()) throw at_line(Status::format, line, "The comment has no end; close it by \"}\".");
+      reader.skip_one();
+      continue;
+    }
+    if (all.size() == most_systems) throw at_line(Status::limit, line, "The file has more than 4096 systems.");
+    const std::vector<double> values = numbers(reader, dimension, name);
+    try {
+      all.push_back({name, system_of(values, dimension)});
+    } catch (const Error& error) {
+      throw at_line(error.status(), line, "The system " + quoted(name) + ": " + error.what());
+    }
+  }
+  if (all.empty())
+    throw at_line(Status::format, 1, "The file holds no system; one is a name, then its rows in braces.");
+  return all;
+}
+
+std::string write_fractint(std::string_view name, const System& system) {
+  std::string text;
+  for (const char c : name) {
+    const bool plain =
+        static_cast<unsigned char>(c) > ' ' && std::string_view("{}();,").find(c) == std::string_view::npos;
+    text += plain ? c : '_';
+  }
+  if (text.empty() || lower(text) == "comment") text += '_';
+  text += system.dimension() == 3 ? " (3D) {\n" : " {\n";
+  const std::vector<double>& weights = system.weights().empty() ? system.probabilities() : system.weights();
+  for (std::size_t i = 0; i < system.maps().size(); ++i) {
+    const Affine& map = system.maps()[i];
+    for (int row = 0; row < system.dimension(); ++row)
+      for (int column = 0; column < system.dimension(); ++column) text += " " + text_of(map.linear(row, column));
+    for (int axis = 0; axis < system.dimension(); ++axis) text += " " + text_of(map.shift(axis));
+    text += " " + text_of(weights[i]) + "\n";
+  }
+  return text + "}\n";
+}
+
+}  // namespace ifsm::core
