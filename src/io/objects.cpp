@@ -103,7 +103,7 @@ class ObjectReader : public Events {
 
   void key(std::string_view key) override {
     Frame& top = stack_.back();
-    top.key = printable(key);
+    top.key = key.empty() ? "\"\"" : printable(key);
     for (Member& member : top.members)
       if (member.key == key) return enter(top, member);
     throw error(Status::format, "is not a key of version 1 of the format; remove it.");
