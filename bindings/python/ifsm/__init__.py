@@ -14,6 +14,7 @@ without the interpreter's lock, and Ctrl-C cancels them.
 import atexit
 
 from . import _native
+from ._answers import Crossings, Dimension, Distances, Nearest, Spectrum
 from ._curves import curves
 from ._deformers import Deformer
 from ._errors import (
@@ -30,7 +31,7 @@ from ._errors import (
 )
 from ._filters import Filter
 from ._fits import Budget, Fit, FitReport, Known, TrainReport, fit, fit_curve, fit_filter, fit_sparse, train
-from ._models import Crossings, Dimension, Distances, Model, Nearest, Spectrum
+from ._models import Model
 
 __version__ = _native.ifsm_version_text()
 

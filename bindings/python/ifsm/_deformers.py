@@ -2,8 +2,9 @@
 import numpy as np
 
 from . import _arrays, _native
+from ._answers import crossings
 from ._errors import Status, invalid_value, naming
-from ._models import Model, _at, _saved, as_bytes, crossings
+from ._models import Model, _at, _saved, as_bytes
 from ._objects import Handled, native_of
 
 TURNINGS = {"similarity": _native.IFSM_TURNING_SIMILARITY, "rotation": _native.IFSM_TURNING_ROTATION,

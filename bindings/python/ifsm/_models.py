@@ -1,11 +1,11 @@
 """Models: a control polygon, a filter, and a tree of details."""
 import numbers
 import os
-from typing import NamedTuple
 
 import numpy as np
 
 from . import _arrays, _curves, _native, _progress
+from ._answers import Dimension, Distances, Nearest, Spectrum, crossings
 from ._errors import Error, Status, invalid_type, invalid_value, naming, of_one, rename
 from ._filters import SQUARE_NAMES, Filter
 from ._objects import Handled, native_of
@@ -18,64 +18,6 @@ RESOLVES = {"none": _native.IFSM_RESOLVE_NONE, "values": _native.IFSM_RESOLVE_VA
             "choice": _native.IFSM_RESOLVE_CHOICE}
 FORMATS = {"json": _native.IFSM_FORMAT_JSON, "cbor": _native.IFSM_FORMAT_CBOR}
 _METHODS = {"boxes": _native.IFSM_DIMENSION_BOXES, "divider": _native.IFSM_DIMENSION_DIVIDER}
-
-
-class Distances(NamedTuple):
-    """How far one curve is from another, in the samples' units."""
-
-    rms: float
-    """Root mean square between samples of the same number."""
-    largest: float
-    """The largest between them."""
-    farthest: int
-    """The number of that sample."""
-    hausdorff: float
-    """Between the polylines through the finest places, edges and all, to a millionth."""
-
-
-class Nearest(NamedTuple):
-    """The points of a curve nearest to queries."""
-
-    parameters: np.ndarray
-    distances: np.ndarray
-    points: np.ndarray
-    """Of shape (queries, dimension)."""
-
-
-class Crossings(NamedTuple):
-    """Where a plane curve meets itself."""
-
-    first: np.ndarray
-    """Of shape (meetings, 2): row k has the two parameters at which the curve is at one point."""
-    last: np.ndarray
-    """The same numbers; but of a piece that is gone twice, those where it ends."""
-    points: np.ndarray
-    """Of shape (meetings, 2): the places of `first`."""
-
-
-class Dimension(NamedTuple):
-    """A fractal dimension, as counting tells it."""
-
-    dimension: float
-    standard_error: float
-    r_squared: float
-    scales: np.ndarray
-    counts: np.ndarray
-
-
-class Spectrum(NamedTuple):
-    """How rough a curve is, level by level."""
-
-    hurst: float
-    standard_error: float
-    r_squared: float
-    dimension: float
-    first: int
-    """The levels that were fitted, from here"""
-    last: int
-    """to here."""
-    scales: np.ndarray
-    rms: np.ndarray
 
 
 class Model(Handled):
@@ -527,11 +469,6 @@ def _rows(given, function, argument, count, dimension):
         raise invalid_value(function, argument, f"{argument} has the shape {rows.shape}; give {(count, dimension)}.",
                             Status.SHAPE, required=count)
     return rows
-
-
-def crossings(rows):
-    """Rows of the C library, in columns that have names."""
-    return Crossings(rows[:, 0:2], rows[:, 2:4], rows[:, 4:6])
 
 
 def as_bytes(data, function, argument):

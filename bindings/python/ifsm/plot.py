@@ -12,30 +12,21 @@ All functions take models, or deformers as they are at the moment, and return th
 import numpy as np
 
 from . import _arrays
-from ._deformers import Deformer
-from ._errors import Closed, Status, invalid_type, invalid_value, naming
-from ._models import Model
+from ._errors import Status, invalid_value, naming
 
 try:
     import matplotlib
-    from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
     from matplotlib.ticker import MaxNLocator
 except ImportError as error:
     raise ImportError("ifsm.plot draws with matplotlib, which is not installed: pip install ifsm[plot]") from error
+from . import _drawing
 
 __all__ = ["before_after", "curve", "levels", "residuals", "scalogram"]
 
-_COORDINATES = ("x", "y", "z")
-_FEW = 60  # points that are seen one by one
-_MANY = 1000  # points from which on a usual line hides what it shows
 _FIRST_LEVELS = 5  # that `levels` shows beside the finest: later ones look like it at this size
-_AIR = 0.5  # of the curve's extent: how far beside it the view goes for control points; those of a ring may be anywhere
 _WIDE_AIR = 2.0  # where control points are what is shown
-_ABREAST, _PANEL = 3, 3.0  # small multiples in a row, and how wide, in inches
 _COLUMNS = 512  # of a scalogram, at most: about the pixels of its figure's axes, so that none of them is lost
 _DECADES = 6  # below the largest detail: those that a palette tells apart, and far above rounding
-_ZOOM = 0.75  # of a box in space: room for its labels, which no layout sees
 _ZERO = "0.85"  # light grey: no colour of viridis
 
 
@@ -77,17 +68,17 @@ def curve(model, *, ax=None, control_polygon=True, levels=None, details=None, **
     True
     """
     function = "ifsm.plot.curve"
-    shown = _drawable(model, function, "model")
+    shown = _drawing.drawable(model, function, "model")
     if details is not None:
         shown = shown.keep(details=details)
-    points = _closed(shown, shown.points(levels=levels))
-    own, ax = ax is None, _axes(ax, shown, function)
-    drawn = _draw(ax, points, **{"label": "curve" if levels is None else f"level {levels}", **line})
+    points = _drawing.closed(shown, shown.points(levels=levels))
+    own, ax = ax is None, _drawing.axes(ax, shown, function)
+    drawn = _drawing.draw(ax, points, **{"label": "curve" if levels is None else f"level {levels}", **line})
     if control_polygon:
         # On axes of somebody's own, a legend is theirs to ask for: by a label.
         named = own or "label" in line
-        _draw_polygon(ax, shown.control_points, points, drawn.get_color(), "control polygon" if named else "_polygon")
-    return _finish(ax, shown, own)
+        _drawing.draw_polygon(ax, shown.control_points, points, drawn.get_color(), "control polygon" if named else "_polygon")
+    return _drawing.finish(ax, shown, own)
 
 
 def before_after(model, deformed, *, ax=None, control_polygon=False):
@@ -114,15 +105,15 @@ def before_after(model, deformed, *, ax=None, control_polygon=False):
     ['before', 'after']
     """
     function = "ifsm.plot.before_after"
-    before, after = _drawable(model, function, "model"), _drawable(deformed, function, "deformed")
-    _same_dimension(before, after, function, "deformed")
-    own, ax = ax is None, _axes(ax, before, function)
-    _draw(ax, _closed(before, before.points()), label="before", color="0.6", linewidth=0.7)
-    points = _closed(after, after.points())
-    drawn = _draw(ax, points, label="after", color="C0")
+    before, after = _drawing.drawable(model, function, "model"), _drawing.drawable(deformed, function, "deformed")
+    _drawing.same_dimension(before, after, function, "deformed")
+    own, ax = ax is None, _drawing.axes(ax, before, function)
+    _drawing.draw(ax, _drawing.closed(before, before.points()), label="before", color="0.6", linewidth=0.7)
+    points = _drawing.closed(after, after.points())
+    drawn = _drawing.draw(ax, points, label="after", color="C0")
     if control_polygon:
-        _draw_polygon(ax, after.control_points, points, drawn.get_color(), air=_WIDE_AIR)
-    return _finish(ax, before, own)
+        _drawing.draw_polygon(ax, after.control_points, points, drawn.get_color(), air=_WIDE_AIR)
+    return _drawing.finish(ax, before, own)
 
 
 def levels(model, which=None, *, ax=None, overlay=False):
@@ -152,20 +143,20 @@ def levels(model, which=None, *, ax=None, overlay=False):
     (1,)
     """
     function = "ifsm.plot.levels"
-    shown = _drawable(model, function, "model")
+    shown = _drawing.drawable(model, function, "model")
     chosen = _levels(shown, which, function)
     with naming(levels="which"):
-        lines = [_closed(shown, shown.points(levels=level)) for level in chosen]
-    finest = _closed(shown, shown.points())
-    axes = _axes_of_levels(ax, shown, 1 if overlay else len(lines), function)
+        lines = [_drawing.closed(shown, shown.points(levels=level)) for level in chosen]
+    finest = _drawing.closed(shown, shown.points())
+    axes = _drawing.axes_of_levels(ax, shown, 1 if overlay else len(lines), function)
     if overlay:
         _overlay(axes[0], chosen, lines, finest)
     else:
         _small_multiples(axes, chosen, lines, finest)
     for each in axes:
-        _finish(each, shown, ax is None)
+        _drawing.finish(each, shown, ax is None)
     if ax is None and len(axes) > 1:
-        _arrange(axes, shown)
+        _drawing.arrange(axes, shown)
     return axes
 
 
@@ -181,13 +172,13 @@ def _levels(model, which, function):
 def _overlay(ax, chosen, lines, finest):
     shades = matplotlib.colormaps["viridis"](np.linspace(0, 0.9, len(lines)))  # its last tenth is pale on white
     for level, points, shade in zip(chosen, lines, shades):
-        _draw(ax, points, beside=finest, label=f"level {level}", color=shade)
+        _drawing.draw(ax, points, beside=finest, label=f"level {level}", color=shade)
 
 
 def _small_multiples(axes, chosen, lines, finest):
     for ax, level, points in zip(axes, chosen, lines):
-        _draw(ax, finest, color="0.75", linewidth=0.6, marker="none", label="_curve")
-        _draw(ax, points, beside=finest, color="C0", label=f"_level {level}")
+        _drawing.draw(ax, finest, color="0.75", linewidth=0.6, marker="none", label="_curve")
+        _drawing.draw(ax, points, beside=finest, color="C0", label=f"_level {level}")
         ax.set_title(f"level {level}: {len(points)} point{'s' * (len(points) != 1)}", fontsize="medium")
 
 
@@ -220,11 +211,11 @@ def scalogram(model, *, ax=None):
     (4, 32)
     """
     function = "ifsm.plot.scalogram"
-    shown = _shown(model, function, "model")
+    shown = _drawing.model_of(model, function, "model")
     if shown.levels == 0:
         raise invalid_value(function, "model", "model has no levels, and so no details; give one that has.")
     sizes = _sizes(shown)
-    ax = _checked_axes(ax, function) if ax is not None else _figure(figsize=(7, 4)).subplots()
+    ax = _drawing.checked_axes(ax, function) if ax is not None else _drawing.new_figure(figsize=(7, 4)).subplots()
     palette = matplotlib.colormaps["viridis"].with_extremes(bad=_ZERO)
     picture = ax.imshow(sizes, aspect="auto", extent=(0, 1, shown.levels - 0.5, -0.5), cmap=palette,
                         interpolation="nearest")  # levels are apart, and must not run into each other
@@ -233,7 +224,7 @@ def scalogram(model, *, ax=None):
     bar = ax.figure.colorbar(picture, ax=ax, extend="min" if (sizes < low).any() else "neither")
     bar.set_label(r"$\log_{10}$ of significance" + (" (grey: zero)" if sizes.mask.any() else ""))
     ax.yaxis.set_major_locator(MaxNLocator(integer=True))
-    return _label(ax, "parameter", "level (0: coarsest)")
+    return _drawing.label(ax, "parameter", "level (0: coarsest)")
 
 
 def _sizes(model):
@@ -277,199 +268,19 @@ def residuals(model, sketch, *, ax=None):
     (65,)
     """
     function = "ifsm.plot.residuals"
-    exact, near = _shown(model, function, "model"), _shown(sketch, function, "sketch")
-    _same_dimension(exact, near, function, "sketch")
+    exact, near = _drawing.model_of(model, function, "model"), _drawing.model_of(sketch, function, "sketch")
+    _drawing.same_dimension(exact, near, function, "sketch")
     if near.sample_count != exact.sample_count:
         raise invalid_value(function, "sketch", f"sketch has {near.sample_count} samples, and model {exact.sample_count}; "
                             "give a sketch of that model.", Status.SHAPE, required=exact.sample_count)
     distances = np.linalg.norm(near.samples() - exact.samples(), axis=1)
     rms = exact.distance(near).rms
-    ax = _checked_axes(ax, function) if ax is not None else _figure(figsize=(7, 3.5)).subplots()
-    ax.plot(exact.parameters(), distances, linewidth=_width(len(distances)), label="distance")
+    ax = _drawing.checked_axes(ax, function) if ax is not None else _drawing.new_figure(figsize=(7, 3.5)).subplots()
+    ax.plot(exact.parameters(), distances, linewidth=_drawing.width(len(distances)), label="distance")
     ax.axhline(rms, color="C1", linestyle="--", linewidth=1.4, label=f"RMS {rms:.4g}")
     if rms == 0:
         ax.set_ylim(0, 1)
     else:
         ax.set_ylim(0, max(ax.get_ylim()[1], 1.25 * distances.max()))  # room for the legend above the line
     ax.legend(loc="upper right", ncol=2, fontsize="small")
-    return _label(ax, "parameter", "distance from the model")
-
-
-# ---- what is drawn ------------------------------------------------------------------------------------------------
-
-
-def _shown(given, function, argument):
-    """The model to draw: a deformer's as it is at the moment."""
-    if not isinstance(given, (Model, Deformer)):
-        raise invalid_type(function, argument, given, "an ifsm.Model or an ifsm.Deformer")
-    if given._native is None:
-        raise Closed(f"{argument} was closed; give one that is not.", Status.INVALID_HANDLE, function, argument)
-    return given.snapshot() if isinstance(given, Deformer) else given
-
-
-def _drawable(given, function, argument):
-    shown = _shown(given, function, argument)
-    if shown.dimension > len(_COORDINATES):
-        raise invalid_value(function, argument, f"{argument} has {shown.dimension} dimensions; curves of 1 to 3 can be "
-                            "drawn: make a model of some of its coordinates.", Status.SHAPE)
-    return shown
-
-
-def _same_dimension(first, second, function, argument):
-    if second.dimension != first.dimension:
-        raise invalid_value(function, argument, f"{argument} has {second.dimension} dimensions, and model "
-                            f"{first.dimension}; give two of the same.", Status.SHAPE, required=first.dimension)
-
-
-def _closed(model, points):
-    """Points of a level as a line: rings under square filters do not repeat their first point by themselves."""
-    if model.closed and model.filter.topology == "square":
-        return np.concatenate([points, points[:1]])
-    return points
-
-
-def _over(points):
-    """Columns to plot: of one dimension values over the parameter."""
-    return (np.linspace(0, 1, len(points)), points[:, 0]) if points.shape[1] == 1 else tuple(points.T)
-
-
-def _draw(ax, points, *, beside=None, air=_AIR, **line):
-    """A line, with its points where they are few. Given the curve it lies `beside`, it does not take all of the view."""
-    few = len(points) <= _FEW
-    style = {"linewidth": _width(len(points)), "marker": "." if few else "none", **line}
-    columns = _over(points)
-    if _in_space(ax):
-        return ax.plot(*columns, **style)[0]
-    if beside is None:
-        return ax.plot(*columns[:2], **style)[0]
-    drawn = ax.add_artist(Line2D(*columns[:2], **style))  # which, other than plot(), leaves the view as it is
-    _view(ax, np.column_stack(columns[:2]), np.column_stack(_over(beside)[:2]), air)
-    return drawn
-
-
-def _view(ax, points, curve, air):
-    """Let the view hold a curve, and points that are not far beside it."""
-    low, high = curve.min(axis=0), curve.max(axis=0)
-    air = air * (high - low)
-    near = ((low - air <= points) & (points <= high + air)).all(axis=1)
-    ax.update_datalim(np.concatenate([curve, points[near]]))
-    ax.autoscale_view()
-
-
-def _draw_polygon(ax, polygon, curve, color, label="control polygon", air=_AIR):
-    _draw(ax, polygon, beside=curve, air=air, label=label, color=color, alpha=0.6, linestyle="--", linewidth=1,
-          marker="o", markersize=4)
-
-
-def _width(count):
-    return 0.8 if count > _MANY else 1.4
-
-
-def _in_space(ax):
-    return ax.name == "3d"
-
-
-# ---- axes ---------------------------------------------------------------------------------------------------------
-
-
-def _figure(**options):
-    from matplotlib import pyplot  # late: it chooses a backend
-
-    return pyplot.figure(layout="constrained", **options)
-
-
-def _checked_axes(ax, function):
-    if not isinstance(ax, Axes):
-        raise invalid_type(function, "ax", ax, "matplotlib axes, or None")
-    return ax
-
-
-def _axes(ax, model, function):
-    return _checked_axes(ax, function) if ax is not None else _grid(model, 1)[0]
-
-
-def _axes_of_levels(ax, model, count, function):
-    if ax is None:
-        return _grid(model, count)
-    axes = np.ravel(np.asarray(ax, dtype=object))
-    for each in axes:
-        _checked_axes(each, function)
-    if len(axes) != count:
-        raise invalid_value(function, "ax", f"ax holds {len(axes)} axes; give {count}.", Status.SHAPE, required=count)
-    return axes
-
-
-def _grid(model, count):
-    """So many axes in a figure of their own, in rows of `_ABREAST`."""
-    columns = min(count, _ABREAST)
-    rows = -(-count // columns)
-    space = model.dimension == 3
-    figure = _figure(**{"figsize": (_PANEL * columns, _PANEL * rows)} if count > 1 else {})
-    axes = figure.subplots(rows, columns, sharex=not space, sharey=not space, squeeze=False,
-                           subplot_kw={"projection": "3d"} if space else {}).ravel()
-    for unused in axes[count:]:
-        unused.remove()
-    if space:
-        for each in axes[:count]:
-            each.locator_params(nbins=4 if count == 1 else 3)  # more numbers would lie upon each other
-    return axes[:count]
-
-
-def _arrange(axes, model):
-    """Small multiples as high as what they show, with labels at the outer ones alone."""
-    columns = min(len(axes), _ABREAST)
-    if model.dimension == 2:
-        ratio = np.ptp(axes[0].get_ylim()) / np.ptp(axes[0].get_xlim())
-        axes[0].figure.set_figheight(-(-len(axes) // columns) * (_PANEL * min(max(ratio, 0.3), 2) + 0.5))
-    if model.dimension == 3:
-        return _arrange_in_space(axes)
-    for index, ax in enumerate(axes):
-        lowest = index + columns >= len(axes)
-        ax.tick_params(labelbottom=lowest)
-        ax.set_xlabel(ax.get_xlabel() if lowest else "")
-        ax.set_ylabel("" if index % columns else ax.get_ylabel())
-
-
-def _arrange_in_space(axes):
-    """Boxes of one size, which can be compared; labels at the first alone, since no layout sees them."""
-    finest = axes[-1]
-    for index, ax in enumerate(axes):
-        ax.set(xlim3d=finest.get_xlim3d(), ylim3d=finest.get_ylim3d(), zlim3d=finest.get_zlim3d())
-        ax.set_box_aspect([np.ptp(limits()) for limits in (ax.get_xlim3d, ax.get_ylim3d, ax.get_zlim3d)], zoom=_ZOOM)
-        ax.tick_params(labelsize="x-small", pad=0)
-        if index > 0:
-            ax.set(xlabel="", ylabel="", zlabel="")
-
-
-def _finish(ax, model, own):
-    """Axes labels, units, and a legend where there is something to tell apart."""
-    if model.dimension == 1:
-        _label(ax, "parameter", "value")
-    else:
-        hidden = " (first two of 3 coordinates)" if model.dimension == 3 and not _in_space(ax) else ""
-        _label(ax, "x" + hidden, "y")
-        _equal_units(ax)
-    told = len(ax.get_legend_handles_labels()[0])
-    if told > 1 and own and not _in_space(ax):  # above, where it covers nothing
-        ax.legend(loc="lower left", bbox_to_anchor=(0, 1), ncol=min(told, 3), frameon=False, fontsize="small")
-    elif told > 1:  # in space no curve is seen in the corners
-        ax.legend(loc="upper left" if _in_space(ax) else "best", fontsize="small")
-    return ax
-
-
-def _equal_units(ax):
-    if not _in_space(ax):
-        ax.set_aspect("equal")
-        return
-    if not ax.get_zlabel():
-        ax.set_zlabel("z")
-    sides = [np.ptp(limits()) for limits in (ax.get_xlim3d, ax.get_ylim3d, ax.get_zlim3d)]
-    ax.set_box_aspect(sides, zoom=_ZOOM)
-
-
-def _label(ax, x, y):
-    if not ax.get_xlabel():
-        ax.set_xlabel(x)
-    if not ax.get_ylabel():
-        ax.set_ylabel(y)
-    return ax
+    return _drawing.label(ax, "parameter", "distance from the model")
