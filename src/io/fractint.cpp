@@ -88,7 +88,7 @@ double number(std::string_view word, std::int64_t line) {
 // The numbers of a block, its brace left behind.
 std::vector<double> numbers(Reader& reader, int dimension, const std::string& name) {
   const std::int64_t begin = reader.line();
-  const auto per_map = static_cast<std::size_t>(dimension * (dimension + 1) + 1);
+  const std::size_t d = dimension == 3 ? 3 : 2, per_map = d * (d + 1) + 1;
   std::vector<double> values;
   for (;;) {
     if (reader.at_end())
