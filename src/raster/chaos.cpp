@@ -35,6 +35,11 @@ void require_window(const Window& window) {
   require_side(window.bottom, window.top, window.height, "window");
 }
 
+void require_plane(const System& system) {
+  if (system.dimension() == 2) return;
+  throw Error(Status::shape, "system", "The system lies in space; project it to the plane first.");
+}
+
 RandomWords::RandomWords(std::uint64_t seed, std::uint64_t chunk) {
   const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
   for (std::size_t orbit = 0; orbit < orbit_count; ++orbit) {
@@ -134,11 +139,6 @@ class Game {
   Vector3 start_;
   std::int64_t forget_;
 };
-
-void require_plane(const System& system) {
-  if (system.dimension() == 2) return;
-  throw Error(Status::shape, "system", "The system lies in space; project it to the plane first.");
-}
 
 // Histograms that are filled side by side, added up at the end: as many as there are threads, but a single one where
 // more would take more memory than the counts themselves by a quarter.

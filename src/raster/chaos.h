@@ -42,6 +42,9 @@ struct Grid {
 // 1 … 32768 pixels a side, finite, right > left, top > bottom, and pixels that doubles tell apart.
 void require_window(const Window& window);
 
+// Refuses systems of space: a shape error.
+void require_plane(const System& system);
+
 struct Counts {
   std::vector<std::uint32_t> pixels;  // row by row; they saturate
   std::int64_t inside = 0;            // points in the window

@@ -30,13 +30,13 @@ class Search {
   }
 
  private:
-  // Is one of the piece's points within the tolerance?
+  // Is one of the piece's points within the tolerance? None is when all are beyond twice of it.
   bool extend(const Affine& prefix) {
     const Ellipsoid piece = prefix * system_.enclosure();
     const double size = piece.axes.norm(), distance = (point_ - piece.centre).norm();
     if (distance > size + tolerance_) return false;
     const bool counted = static_cast<std::int64_t>(word_.size()) >= length_;
-    if (counted && size <= tolerance_) return distance <= tolerance_;
+    if (counted && size <= tolerance_ / 2) return true;  // all of it is within twice the tolerance
     constexpr std::int64_t most_pieces = 1 << 24;
     constexpr std::size_t longest = 1 << 13;  // what the stack holds
     if (++pieces_ > most_pieces || word_.size() > longest || static_cast<std::int64_t>(found_.size()) > most_)

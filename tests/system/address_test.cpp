@@ -76,6 +76,30 @@ TEST(AddressesOf, AreTheWordThatAPointWasMadeOf) {
   }
 }
 
+TEST(AddressesOf, AreAllThatAreNearAndNoneThatIsFar) {
+  const auto fern = named_system("fern");
+  Random random(6);
+  const auto points = points_of(*fern, 7);
+  for (int k = 0; k < 60; ++k) {
+    const Vector3 x(3 * normal(random), 5 + 3 * normal(random), 0);
+    const double tolerance = .2;
+    const auto found = addresses_of(*fern, x, 1, tolerance, 1000);
+    for (const int i : fern->active()) {
+      double nearest = INFINITY;
+      for (const Vector3& y : points)
+        nearest = std::min(nearest, (fern->maps()[static_cast<std::size_t>(i)](y) - x).norm());
+      const bool named = std::find(found.begin(), found.end(), Letters{i}) != found.end();
+      if (nearest <= tolerance) {
+        EXPECT_TRUE(named) << k << " " << i;
+      }
+      // Points of words of seven letters leave the tips of the main branch out.
+      if (nearest > 2 * tolerance + std::pow(.86, 7) * 10) {
+        EXPECT_FALSE(named) << k << " " << i;
+      }
+    }
+  }
+}
+
 TEST(AddressesOf, EndWithAnErrorWhereThereAreTooMany) {
   // The stem of the fern: every word of flat maps' ends.
   const System interval(2, {plane(.9, 0, 0, .9, 0, 0), plane(.9, 0, 0, .9, .1, 0)});

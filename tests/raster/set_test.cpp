@@ -1,0 +1,184 @@
+#include "raster/set.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "support.h"
+#include "system/address.h"
+
+using namespace ifsm::core;
+using namespace ifsm::core::testing;
+
+namespace {
+
+constexpr double tolerance = 1. / 64;
+
+std::vector<Meets> set_of(const System& system, const Window& window, double tolerance = ::tolerance) {
+  Watch watch;
+  return set_pixels(system, window, tolerance, watch);
+}
+
+std::int64_t count(const std::vector<Meets>& states, Meets wanted) {
+  return std::count(states.begin(), states.end(), wanted);
+}
+
+// A window around the box, with some air, whose pixels do not lie in step with the shapes of the classics.
+Window odd(const System& system, std::int64_t size) {
+  const Box box = bounding_box(system, 1e-9 * system.enclosure().axes.norm());
+  const double wide = 1.0137 * (box.high(0) - box.low(0)) + .01, high = 1.0219 * (box.high(1) - box.low(1)) + .01;
+  return {box.low(0) - .0071, box.low(1) - .00531, box.low(0) - .0071 + wide, box.low(1) - .00531 + high, size, size};
+}
+
+TEST(SetPixels, HoldEveryPointOfTheChaosGame) {
+  for (const char* name : {"fern", "gasket", "twin_dragon", "koch", "carpet", "maple_leaf", "cantor_set", "tree_type2",
+                           "fern_cyclosorus", "levy", "vicsek", "gosper_island"}) {
+    const auto system = named_system(name);
+    const Window window = odd(*system, 200);
+    const auto states = set_of(*system, window);
+    const Counts counts = plain::chaos_counts(*system, window, 1, 1 << 21);
+    ASSERT_EQ(counts.inside, 1 << 21) << name;
+    std::int64_t hit = 0;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      if (counts.pixels[k] == 0) continue;
+      ++hit;
+      EXPECT_NE(states[k], Meets::no) << name << " " << k;
+    }
+    // Not much more: pixels that are met by little measure are missed by chance.
+    EXPECT_GE(count(states, Meets::yes), hit - count(states, Meets::undecided)) << name;
+    EXPECT_LE(count(states, Meets::undecided), count(states, Meets::yes) / 20 + 2) << name;
+  }
+}
+
+// By another way: every pixel that is said to be met has a point of the attractor, found by its address.
+TEST(SetPixels, AreMetWhereTheySaySo) {
+  for (const char* name : {"fern", "gasket", "koch", "heighway_dragon", "tree_type1"}) {
+    const auto system = named_system(name);
+    const Window window = odd(*system, 40);
+    const auto states = set_of(*system, window);
+    const Grid grid(window);
+    const double wide = 1 / grid.columns_per_unit, high = 1 / grid.rows_per_unit;
+    for (std::size_t k = 0; k < states.size(); ++k) {
+      const Vector3 middle(window.left + (static_cast<double>(k % 40) + .5) * wide,
+                           window.top - (static_cast<double>(k / 40) + .5) * high, 0);
+      const double around = std::hypot(wide, high) / 2;
+      // Within the pixel's circle there is a point if it is met, and none of its inner circle if it is not.
+      const auto has_point_within = [&](double distance) {
+        return !addresses_of(*system, middle, 1, distance, 1000).empty();
+      };
+      EXPECT_TRUE(states[k] != Meets::yes || has_point_within(around)) << name << " " << k;
+      EXPECT_TRUE(states[k] != Meets::no || !has_point_within(std::min(wide, high) / 4.1)) << name << " " << k;
+    }
+  }
+}
+
+TEST(SetPixels, FillASquareAndNothingBesideIt) {
+  std::vector<Affine> quarters;
+  for (const double e : {0.0, .5})
+    for (const double f : {0.0, .5}) quarters.push_back(plane(.5, 0, 0, .5, e, f));
+  const System square(2, quarters);
+  // Pixels of .1, from -.25: the square takes from the middle of the third to the middle of the thirteenth.
+  const auto states = set_of(square, {-.25, -.25, 1.25, 1.25, 15, 15});
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const std::size_t column = k % 15, row = k / 15;
+    const bool inside = column >= 2 && column <= 12 && row >= 2 && row <= 12;
+    EXPECT_EQ(states[k], inside ? Meets::yes : Meets::no) << column << " " << row;
+  }
+}
+
+TEST(SetPixels, LeaveOpenWhatOnlyTouches) {
+  // In step with the window: what lies beside the square's edge is touched, and no point is inside.
+  std::vector<Affine> quarters;
+  for (const double e : {0.0, .5})
+    for (const double f : {0.0, .5}) quarters.push_back(plane(.5, 0, 0, .5, e, f));
+  const auto states = set_of(System(2, quarters), {-.5, -.5, 1.5, 1.5, 8, 8});
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const auto beside = [](std::size_t place) {
+      return place >= 2 && place <= 5 ? 0 : place == 1 || place == 6 ? 1 : 2;
+    };
+    const int away = std::max(beside(k % 8), beside(k / 8));
+    EXPECT_TRUE(away != 0 || states[k] == Meets::yes) << k;
+    EXPECT_TRUE(away != 2 || states[k] == Meets::no) << k;
+  }
+}
+
+// Copies of the twin dragon, moved by a lattice, tile the plane: a pixel that no other copy meets is full. So its area,
+// 17/8, the lattice's, lies between that of full pixels and that of pixels not proven to be empty.
+TEST(SetPixels, HoldTheTwinDragonsAreaBetweenFullPixelsAndPixelsThatAreNotEmpty) {
+  const auto dragon = named_system("twin_dragon");
+  const Vector3 first(.75, 1.25, 0), second(-.5, 2, 0);  // M^-1 (t_1 - t_0), and M^-1 of that
+  double gap = 100;
+  for (const std::int64_t size : {64, 128, 256, 512}) {
+    const Window window = odd(*dragon, size);
+    const double pixel = (window.right - window.left) * (window.top - window.bottom) / static_cast<double>(size * size);
+    const auto states = set_of(*dragon, window);
+    std::vector<bool> full(states.size());
+    for (std::size_t k = 0; k < states.size(); ++k) full[k] = states[k] == Meets::yes;
+    for (int a = -3; a <= 3; ++a)
+      for (int b = -3; b <= 3; ++b) {
+        if (a == 0 && b == 0) continue;
+        const Vector3 moved = a * first + b * second;
+        const auto other = set_of(*dragon, {window.left - moved(0), window.bottom - moved(1), window.right - moved(0),
+                                            window.top - moved(1), size, size});
+        for (std::size_t k = 0; k < states.size(); ++k) full[k] = full[k] && other[k] == Meets::no;
+      }
+    const double inside = pixel * static_cast<double>(std::count(full.begin(), full.end(), true));
+    const double outside = pixel * static_cast<double>(count(states, Meets::yes) + count(states, Meets::undecided));
+    EXPECT_LE(inside, 17. / 8) << size;
+    EXPECT_GE(outside, 17. / 8) << size;
+    EXPECT_LT(outside - inside, .8 * gap) << size;  // a border of dimension 1.52
+    gap = outside - inside;
+  }
+  EXPECT_LT(gap, .7);
+}
+
+TEST(SetPixels, GrowAsTheDimensionSays) {
+  struct Known {
+    const char* name;
+    double dimension;
+  };
+  for (const auto& [name, dimension] :
+       {Known{"gasket", std::log2(3)}, Known{"koch", std::log(4) / std::log(3)},
+        Known{"carpet", std::log(8) / std::log(3)}, Known{"cantor_dust", std::log(4) / std::log(3)}}) {
+    const auto system = named_system(name);
+    const auto met = [&](std::int64_t size) {
+      return static_cast<double>(count(set_of(*system, odd(*system, size)), Meets::yes));
+    };
+    EXPECT_NEAR(std::log2(met(729) / met(81)) / std::log2(9), dimension, .06) << name;
+  }
+}
+
+TEST(SetPixels, OfAPartAreThoseOfTheWhole) {
+  const auto fern = named_system("fern");
+  const Window whole{-3, -1, 3, 11, 240, 480};
+  const Window part{-3 + 100 * .025, 11 - 340 * .025, -3 + 180 * .025, 11 - 200 * .025, 80, 140};
+  const auto all = set_of(*fern, whole), some = set_of(*fern, part);
+  std::int64_t differences = 0;
+  for (std::size_t row = 0; row < 140; ++row)
+    for (std::size_t column = 0; column < 80; ++column) {
+      const Meets a = some[row * 80 + column], b = all[(row + 200) * 240 + column + 100];
+      EXPECT_FALSE((a == Meets::no && b == Meets::yes) || (a == Meets::yes && b == Meets::no));
+      differences += a != b;
+    }
+  EXPECT_LE(differences, 20) << "what is found first decides some that are nearly undecided";
+}
+
+TEST(SetPixels, AreNoneWhereTheWindowMissesTheAttractor) {
+  const auto states = set_of(*named_system("fern"), {100, 100, 101, 101, 10, 10});
+  EXPECT_EQ(count(states, Meets::no), 100);
+}
+
+TEST(SetPixels, RefuseTolerancesByName) {
+  const auto fern = named_system("fern");
+  for (const double bad : {0.0, -1.0, 1.5, double(NAN), 1e-12}) {
+    try {
+      set_of(*fern, {-3, -1, 3, 11, 100, 100}, bad);
+      ADD_FAILURE() << bad;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.argument(), "tolerance");
+      EXPECT_EQ(error.status(), Status::range);
+    }
+  }
+}
+
+}  // namespace
