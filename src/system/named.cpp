@@ -323,19 +323,19 @@ std::span<const NamedSystem> named_systems() {
   return names;
 }
 
-SystemPtr named_system(std::string_view asked) {
-  std::string name(asked);
-  std::replace(name.begin(), name.end(), '-', '_');
+SystemPtr named_system(std::string_view name) {
+  std::string wanted(name);
+  std::replace(wanted.begin(), wanted.end(), '-', '_');
   for (const auto& [alias, meant] : aliases)
-    if (name == alias) name = meant;
+    if (wanted == alias) wanted = meant;
   for (const Known& each : known()) {
-    if (each.named.name != name) continue;
+    if (each.named.name != wanted) continue;
     Code code = each.code();
     return std::make_shared<System>(each.named.dimension, std::move(code.maps), std::move(code.weights));
   }
   std::string names;
   for (const Known& each : known()) names += (names.empty() ? "" : ", ") + std::string(each.named.name);
-  throw Error(Status::range, "name", "There is no system \"" + std::string(asked) + "\"; there are " + names + ".");
+  throw Error(Status::range, "name", "There is no system \"" + std::string(name) + "\"; there are " + names + ".");
 }
 
 }  // namespace ifsm::core
