@@ -60,50 +60,78 @@ class Search {
           .with(tolerance);
   }
 
+  // Depth first down to pieces of some pixels, each of which is then gone through level by level: when it comes to its
+  // small pieces, the pixels around them are mostly known to be met.
   std::vector<Meets> states(Watch& watch) {
-    struct Open {
-      Piece piece;
-      int length;
-    };
-    std::vector<Open> open{{whole_, 0}};
-    for (std::int64_t looked = 0; !open.empty(); ++looked) {
-      constexpr std::int64_t between = 1 << 12;
-      if (looked % between == 0) watch.poll();
-      const Open now = open.back();
-      open.pop_back();
-      if (is_settled(now.piece)) continue;
-      if (now.length == longest_word)
-        throw Error(Status::limit, "tolerance",
-                    "Pieces of words of " + std::to_string(longest_word) +
-                        " maps are still larger than the tolerance; give a larger one.")
-            .with(tolerance_);
-      for (const Piece& map : maps_) open.push_back({now.piece * map, now.length + 1});
+    std::vector<Open> large{{whole_, 0}};
+    while (!large.empty()) {
+      const Open now = large.back();
+      large.pop_back();
+      if (is_large(now.piece))
+        split(now, large);
+      else
+        go_through(now, watch);
     }
     return std::move(states_);
   }
 
  private:
   static constexpr int longest_word = 4096;
+  struct Open {
+    Piece piece;
+    int length;
+  };
+
+  void split(const Open& open, std::vector<Open>& parts) const {
+    if (open.length == longest_word)
+      throw Error(Status::limit, "tolerance",
+                  "Pieces of words of " + std::to_string(longest_word) +
+                      " maps are still larger than the tolerance; give a larger one.")
+          .with(tolerance_);
+    for (const Piece& map : maps_) parts.push_back({open.piece * map, open.length + 1});
+  }
+
+  void go_through(const Open& first, Watch& watch) {
+    std::vector<Open> level{first}, next;
+    for (; !level.empty(); level.swap(next)) {
+      next.clear();
+      for (const Open& open : level) {
+        constexpr std::int64_t between = 1 << 12;
+        if (++looked_ % between == 0) watch.poll();
+        if (!is_settled(open.piece)) split(open, next);
+      }
+    }
+  }
+
+  double across(const Piece& p) const { return std::abs(p.a) * half_[0] + std::abs(p.b) * half_[1] + rounding_; }
+  double down(const Piece& p) const { return std::abs(p.c) * half_[0] + std::abs(p.d) * half_[1] + rounding_; }
+  bool misses(const Piece& p, double across, double down) const {
+    return !(p.e + across >= 0 && p.e - across < static_cast<double>(window_.width) && p.f + down >= 0 &&
+             p.f - down < static_cast<double>(window_.height));
+  }
+  // One that reaches into the window, and is worth going through in parts.
+  bool is_large(const Piece& p) const {
+    constexpr double some = 32;  // pixels, to each side of its middle
+    return std::max(across(p), down(p)) > some && !misses(p, across(p), down(p));
+  }
 
   // Does the piece tell nothing more, or is it too small to be looked into?
   bool is_settled(const Piece& p) {
-    const double across = std::abs(p.a) * half_[0] + std::abs(p.b) * half_[1] + rounding_;
-    const double down = std::abs(p.c) * half_[0] + std::abs(p.d) * half_[1] + rounding_;
-    if (!(p.e + across >= 0 && p.e - across < static_cast<double>(window_.width) && p.f + down >= 0 &&
-          p.f - down < static_cast<double>(window_.height)))
-      return true;
+    const double across = this->across(p), down = this->down(p);
+    if (misses(p, across, down)) return true;
     const Range touched = around(p.e, p.f, across, down);
     if (touched.is_one()) {  // also when it passes the window's edge: pixels beyond are pixels
       mark(touched, Meets::yes);
       return true;
     }
-    constexpr std::int64_t few = 16;
     const Range seen = clipped(touched);
-    if (seen.pixels() <= few && all_met(seen)) return true;
-    if (std::max(across, down) > tolerance_) return false;
-    mark(seen, Meets::undecided);
+    constexpr std::int64_t few = 16;
+    if (seen.pixels() > few) return false;
     const double x = p.a * inside_[0] + p.b * inside_[1] + p.e, y = p.c * inside_[0] + p.d * inside_[1] + p.f;
     if (const Range point = around(x, y, rounding_, rounding_); point.is_one()) mark(point, Meets::yes);
+    if (all_met(seen)) return true;
+    if (std::max(across, down) > tolerance_) return false;
+    mark(seen, Meets::undecided);
     return true;
   }
 
@@ -144,6 +172,7 @@ class Search {
   std::array<double, 2> half_{};    // of the attractor's box
   std::array<double, 2> inside_{};  // a point of the attractor, from the box's middle
   double rounding_ = 0;
+  std::int64_t looked_ = 0;
 };
 
 }  // namespace
