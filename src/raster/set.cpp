@@ -60,9 +60,11 @@ class Search {
           .with(tolerance);
   }
 
+  // First points of the attractor, which meet most pixels; then proofs for the others.
   // Depth first down to pieces of some pixels, each of which is then gone through level by level: when it comes to its
   // small pieces, the pixels around them are mostly known to be met.
   std::vector<Meets> states(Watch& watch) {
+    follow_points();
     std::vector<Open> large{{whole_, 0}};
     while (!large.empty()) {
       const Open now = large.back();
@@ -81,6 +83,31 @@ class Search {
     Piece piece;
     int length;
   };
+
+  // From a point of the attractor through all maps, on from every pixel that was not met before. What it misses, for
+  // its pixel was met by another point, the pieces find.
+  void follow_points() {
+    struct Point {
+      double x, y;  // from the box's middle
+      int length;
+    };
+    std::vector<Point> open{{inside_[0], inside_[1], 0}};
+    while (!open.empty()) {
+      const Point now = open.back();
+      open.pop_back();
+      for (const Piece& map : maps_) {
+        const Point next{map.a * now.x + map.b * now.y + map.e, map.c * now.x + map.d * now.y + map.f, now.length + 1};
+        const Range point = around(next.x + whole_.e, next.y + whole_.f, rounding_, rounding_);
+        if (!point.is_one() || !is_inside(point) || all_met(point) || next.length == longest_word) continue;
+        mark(point, Meets::yes);
+        open.push_back(next);
+      }
+    }
+  }
+  bool is_inside(const Range& pixel) const {
+    return pixel.first_column >= 0 && pixel.first_column < window_.width && pixel.first_row >= 0 &&
+           pixel.first_row < window_.height;
+  }
 
   void split(const Open& open, std::vector<Open>& parts) const {
     if (open.length == longest_word)
@@ -125,7 +152,7 @@ class Search {
       return true;
     }
     const Range seen = clipped(touched);
-    constexpr std::int64_t few = 16;
+    constexpr std::int64_t few = 64;
     if (seen.pixels() > few) return false;
     const double x = p.a * inside_[0] + p.b * inside_[1] + p.e, y = p.c * inside_[0] + p.d * inside_[1] + p.f;
     if (const Range point = around(x, y, rounding_, rounding_); point.is_one()) mark(point, Meets::yes);
