@@ -40,13 +40,13 @@ struct Orbits {
   }
 };
 
-// Coefficients by slot of the choice: x' = a x + b y + e, y' = c x + d y + f, of a slot's own map and of its other one.
+// x' = a x + b y + e, y' = c x + d y + f, by number of map; with zeros up to the choice's slots.
 template <class Real>
 struct Coefficients {
   explicit Coefficients(const System& system);
 
   Choice choice;
-  std::vector<Real> a, b, c, d, e, f;  // by number of map, as many as slots
+  std::vector<Real> a, b, c, d, e, f;
 
   void step(std::uint32_t random, Real& x, Real& y) const {
     const auto i = static_cast<std::size_t>(choice(random));
