@@ -172,8 +172,8 @@ typedef int32_t (*ifsm_progress_callback)(void *user, double fraction, const cha
 /* Return non-zero to cancel. */
 typedef int32_t (*ifsm_interrupt_callback)(void *user);
 
-/* What every call of this thread asks about every 50 ms, unless it is given a progress callback, also one that takes
- * no cancel token: whether to stop, which it does with IFSM_ERROR_CANCELLED, leaving nothing behind. For an
+/* What every call of this thread asks about every 50 ms, also one that takes no cancel token (one that is given a
+ * progress callback may ask both): whether to stop, which it does with IFSM_ERROR_CANCELLED, leaving nothing behind. For an
  * interpreter's Ctrl-C. A new one takes the last one's place; NULL, the default, asks nothing. Stretches that cannot be
  * interrupted: an allocation, sorting. `user` is handed through. Errors: none. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_set_interrupt(ifsm_interrupt_callback ask, void *user);

@@ -1,10 +1,10 @@
-// How Python tells what the C ABI takes and gives; support.h does the work.
+// How Python tells what the C ABI takes and gives; support.h and lock.h do the work.
 
 %begin %{
 #define PY_SSIZE_T_CLEAN
 %}
 %{
-#include "python/support.h"
+#include "python/lock.h"
 %}
 
 %define IFSM_ARGUMENT ifsm_python::Argument{"$symname", "$1_name"} %enddef

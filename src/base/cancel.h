@@ -23,8 +23,8 @@ class CancelToken {
 // Thrown by Watch and poll_interrupt, never caught below src/capi except to clean up.
 struct Cancelled {};
 
-// What this thread asks in work that has no progress callback: about every 50 ms, whether to stop (not 0). NULL:
-// nothing.
+// What this thread asks in work, also in such as has no progress callback: about every 50 ms, whether to stop (not 0).
+// NULL: nothing.
 using Interrupt = std::int32_t (*)(void* user);
 void set_interrupt(Interrupt ask, void* user);
 

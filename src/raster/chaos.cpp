@@ -37,7 +37,8 @@ void require_window(const Window& window) {
 
 void require_plane(const System& system) {
   if (system.dimension() == 2) return;
-  throw Error(Status::shape, "system", "The system lies in space; project it to the plane first.");
+  throw Error(Status::shape, "system", "The system lies in space; project it to the plane first.")
+      .with(system.dimension());
 }
 
 RandomWords::RandomWords(std::uint64_t seed, std::uint64_t chunk) {

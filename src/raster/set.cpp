@@ -12,7 +12,8 @@
 namespace ifsm::core {
 namespace {
 
-// x → M x + t of the plane, in pixels: across from the left edge, down from the upper one.
+// x → M x + t of the plane, in pixels: across from the left edge, down from the upper one. Affine's without what is
+// zero in the plane: a third of the products, in the innermost loop.
 struct Piece {
   double a, b, c, d, e, f;
 
@@ -64,7 +65,7 @@ class Search {
   // Depth first down to pieces of some pixels, each of which is then gone through level by level: when it comes to its
   // small pieces, the pixels around them are mostly known to be met.
   std::vector<Meets> states(Watch& watch) {
-    follow_points();
+    follow_points(watch);
     std::vector<Open> large{{whole_, 0}};
     while (!large.empty()) {
       const Open now = large.back();
@@ -86,7 +87,7 @@ class Search {
 
   // From a point of the attractor through all maps, on from every pixel that was not met before. What it misses, for
   // its pixel was met by another point, the pieces find.
-  void follow_points() {
+  void follow_points(Watch& watch) {
     struct Point {
       double x, y;  // from the box's middle
       int length;
@@ -95,6 +96,7 @@ class Search {
     while (!open.empty()) {
       const Point now = open.back();
       open.pop_back();
+      poll(watch);
       for (const Piece& map : maps_) {
         const Point next{map.a * now.x + map.b * now.y + map.e, map.c * now.x + map.d * now.y + map.f, now.length + 1};
         const Range point = around(next.x + whole_.e, next.y + whole_.f, rounding_, rounding_);
@@ -107,6 +109,11 @@ class Search {
   bool is_inside(const Range& pixel) const {
     return pixel.first_column >= 0 && pixel.first_column < window_.width && pixel.first_row >= 0 &&
            pixel.first_row < window_.height;
+  }
+
+  void poll(const Watch& watch) {
+    constexpr std::int64_t between = 1 << 12;
+    if (++looked_ % between == 0) watch.poll();
   }
 
   void split(const Open& open, std::vector<Open>& parts) const {
@@ -123,8 +130,7 @@ class Search {
     for (; !level.empty(); level.swap(next)) {
       next.clear();
       for (const Open& open : level) {
-        constexpr std::int64_t between = 1 << 12;
-        if (++looked_ % between == 0) watch.poll();
+        poll(watch);
         if (!is_settled(open.piece)) split(open, next);
       }
     }
