@@ -11,7 +11,7 @@ namespace ifsm::core {
 // Proven: all long products shrink. Refuted: some do not. Undecided at the length tried.
 enum class Contractivity : std::int32_t { refuted = -1, undecided = 0, proven = 1 };
 
-// Upper triangular U: in the coordinates U x the matrices look more as contractive as they are together. The root of
+// Upper triangular U: in the coordinates U x the matrices look nearly as contractive as they are together. The root of
 // the limit of H ← I + c Σ A_i^T H A_i, c < 1/N slowed so that it converges for every contractive set. The identity
 // where numbers fail.
 Eigen::MatrixXd balancing(const std::vector<Eigen::MatrixXd>& maps);
