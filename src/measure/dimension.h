@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "linalg/trend.h"
 #include "measure/polyline.h"
-#include "measure/trend.h"
 
 namespace ifsm::core {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "curve/model.h"
-#include "measure/trend.h"
+#include "linalg/trend.h"
 
 namespace ifsm::core {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/trend.h"
+#include "linalg/trend.h"
 
 namespace ifsm::core {
 namespace {

@@ -57,16 +57,4 @@ double squared(const Points& a, const Points& b);
 
 Kept random_choice(const Model& model, Random& random, double share);
 
-// Fails unless `call` throws an Error; gives it for a look.
-template <class Call>
-Error refusal(const Call& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return {Status::ok, "", ""};
-}
-
 }  // namespace ifsm::core::testing

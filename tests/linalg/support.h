@@ -1,8 +1,12 @@
-// Seeded numbers and matrices for all tests that do arithmetic.
+// Seeded numbers and matrices for all tests that do arithmetic, and a way to look at refusals.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <random>
+
+#include "base/error.h"
 
 namespace ifsm::core::testing {
 
@@ -23,5 +27,17 @@ Matrix random_rotation(Random& random, Eigen::Index d);
 // The least x, a column for each of b's, that minimises |a x - b|: Eigen's complete orthogonal decomposition.
 Matrix least_squares(const Matrix& a, const Matrix& b);
 Eigen::Index rank(const Matrix& a);
+
+// Fails unless `call` throws an Error; gives it for a look.
+template <class Call>
+Error refusal(const Call& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return {Status::ok, "", ""};
+}
 
 }  // namespace ifsm::core::testing

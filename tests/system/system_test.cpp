@@ -9,16 +9,6 @@ using namespace ifsm::core::testing;
 
 namespace {
 
-Error error_of(const auto& call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error;
-  }
-  ADD_FAILURE() << "no error";
-  return {Status::ok, "", ""};
-}
-
 TEST(System, TakesMapsAsOftenAsTheyAreLargeAndFlatOnesToo) {
   const System fern(2, named_system("fern")->maps());
   const double sizes[] = {.7241, .1038, .1088, 1. / 25 * (.7241 + .1038 + .1088) / 4};
@@ -54,17 +44,17 @@ TEST(System, LeavesOutMapsOfProbabilityZero) {
 
 TEST(System, RefusesWhatIsNoSystemAndSaysWhere) {
   const auto maps = named_system("gasket_right")->maps();
-  EXPECT_EQ(error_of([&] { System(4, maps); }).argument(), "dimension");
-  EXPECT_EQ(error_of([&] { System(2, {}); }).status(), Status::range);
-  EXPECT_EQ(error_of([&] { System(2, std::vector<Affine>(257, maps[0])); }).value(), 257);
+  EXPECT_EQ(refusal([&] { System(4, maps); }).argument(), "dimension");
+  EXPECT_EQ(refusal([&] { System(2, {}); }).status(), Status::range);
+  EXPECT_EQ(refusal([&] { System(2, std::vector<Affine>(257, maps[0])); }).value(), 257);
   auto broken = maps;
   broken[1].shift(0) = NAN;
-  EXPECT_EQ(error_of([&] { System(2, broken); }).index(), 1);
-  EXPECT_EQ(error_of([&] { System(2, maps, {1, 2}); }).required(), 3);
-  EXPECT_EQ(error_of([&] { System(2, maps, {1, 2, -1}); }).index(), 2);
-  EXPECT_EQ(error_of([&] { System(2, maps, {1, INFINITY, 1}); }).status(), Status::not_finite);
-  EXPECT_EQ(error_of([&] { System(2, maps, {0, 0, 0}); }).argument(), "probabilities");
-  EXPECT_EQ(error_of([&] {
+  EXPECT_EQ(refusal([&] { System(2, broken); }).index(), 1);
+  EXPECT_EQ(refusal([&] { System(2, maps, {1, 2}); }).required(), 3);
+  EXPECT_EQ(refusal([&] { System(2, maps, {1, 2, -1}); }).index(), 2);
+  EXPECT_EQ(refusal([&] { System(2, maps, {1, INFINITY, 1}); }).status(), Status::not_finite);
+  EXPECT_EQ(refusal([&] { System(2, maps, {0, 0, 0}); }).argument(), "probabilities");
+  EXPECT_EQ(refusal([&] {
               System(2, {plane(.5, 0, 0, .5, 1e308, 1e308), plane(.9, 0, 0, .9, 0, -1e308)});
             }).argument(),
             "maps");
@@ -92,7 +82,7 @@ TEST(Contraction, IsRefutedByAWordWhoseRadiusIsTold) {
   EXPECT_EQ(answer.answer, Contractivity::refuted);
   EXPECT_EQ(answer.word.size(), 2u);
   EXPECT_NEAR(answer.radius, 1.44, 8 * epsilon);
-  const Error error = error_of([&] { static_cast<void>(system.enclosure()); });
+  const Error error = refusal([&] { static_cast<void>(system.enclosure()); });
   EXPECT_EQ(error.status(), Status::range);
   EXPECT_EQ(error.value(), answer.radius);
   EXPECT_NE(std::string(error.what()).find("0 1"), std::string::npos) << error.what();
@@ -108,7 +98,7 @@ TEST(Contraction, IsUndecidedWhereMapsContractTooLittle) {
   const double almost = 1 - 0x1p-40;
   const System system(2, {plane(almost, 0, 0, almost, 0, 0), plane(almost, 0, 0, almost, 1, 0)});
   EXPECT_EQ(system.contraction().answer, Contractivity::undecided);
-  EXPECT_EQ(error_of([&] { static_cast<void>(system.enclosure()); }).status(), Status::numerical);
+  EXPECT_EQ(refusal([&] { static_cast<void>(system.enclosure()); }).status(), Status::numerical);
 }
 
 TEST(Contraction, SurvivesEntriesThatOverflow) {

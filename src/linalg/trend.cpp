@@ -1,4 +1,4 @@
-#include "measure/trend.h"
+#include "linalg/trend.h"
 
 #include <cmath>
 #include <cstddef>
