@@ -9,7 +9,6 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/random.h"
 #include "raster/histogram.h"
 #include "raster/orbits.h"
 #include "system/reach.h"
@@ -41,56 +40,7 @@ void require_plane(const System& system) {
       .with(system.dimension());
 }
 
-RandomWords::RandomWords(std::uint64_t seed, std::uint64_t chunk) {
-  const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
-  for (std::size_t orbit = 0; orbit < orbit_count; ++orbit) {
-    const auto words =
-        philox({low(chunk), low(chunk >> 32), static_cast<std::uint32_t>(orbit), 0}, {low(seed), low(seed >> 32)});
-    a[orbit] = words[0], b[orbit] = words[1], c[orbit] = words[2];
-    counter[orbit] = 1;
-  }
-}
-
-template <class Real>
-Coefficients<Real>::Coefficients(const System& system) : choice(system.probabilities()) {
-  const std::size_t size = std::max(choice.slots(), system.maps().size());
-  for (std::vector<Real>* each : {&a, &b, &c, &d, &e, &f}) each->resize(size);
-  for (std::size_t i = 0; i < system.maps().size(); ++i) {
-    const Affine& map = system.maps()[i];
-    a[i] = static_cast<Real>(map.linear(0, 0)), b[i] = static_cast<Real>(map.linear(0, 1));
-    c[i] = static_cast<Real>(map.linear(1, 0)), d[i] = static_cast<Real>(map.linear(1, 1));
-    e[i] = static_cast<Real>(map.shift(0)), f[i] = static_cast<Real>(map.shift(1));
-  }
-}
-template struct Coefficients<float>;
-template struct Coefficients<double>;
-
 namespace {
-
-Vector3 start_of(const System& system) {
-  return fixed_point(system.maps()[static_cast<std::size_t>(system.active()[0])]);
-}
-
-// After how many steps a point has forgotten where it began, to 2^-32 of the attractor's size: the longest of some
-// hundred random words whose products shrink to that.
-std::int64_t steps_to_forget(const System& system) {
-  const Coefficients<double> maps(system);
-  constexpr int rounds = 4;
-  constexpr double forgotten = 0x1p-32;
-  std::int64_t longest = 0;
-  for (int round = 0; round < rounds; ++round) {
-    RandomWords random(0, static_cast<std::uint64_t>(round));
-    for (std::size_t orbit = 0; orbit < orbit_count; ++orbit) {
-      Matrix3 product = Affine::identity(2).linear;
-      std::int64_t steps = 0;
-      constexpr std::int64_t most = 1 << 14;
-      for (; steps < most && product.norm() > forgotten; ++steps)
-        product = product * system.maps()[static_cast<std::size_t>(maps.choice(random.next(orbit)))].linear;
-      longest = std::max(longest, steps);
-    }
-  }
-  return longest;
-}
 
 // Plain double precision.
 void run(Orbits<double>& orbits, const Coefficients<double>& maps, const Window& window, std::int64_t steps,
@@ -108,20 +58,15 @@ template <class Real>
 class Game {
  public:
   Game(const System& system, const Window& window, std::uint64_t seed, std::int64_t points)
-      : maps_(system),
-        window_(window),
-        seed_(seed),
-        points_(points),
-        start_(start_of(system)),
-        forget_(steps_to_forget(system)) {}
+      : maps_(system), window_(window), seed_(seed), points_(points), start_(system) {}
 
   std::int64_t chunks() const { return (points_ + points_per_chunk - 1) / points_per_chunk; }
 
   // Of points outside, how many.
   std::int64_t play(std::int64_t chunk, Histogram& histogram) const {
     const Tally tally = histogram.tally();
-    Orbits<Real> orbits(seed_, static_cast<std::uint64_t>(chunk), start_);
-    run(orbits, maps_, window_, forget_, nullptr);
+    Orbits<Real> orbits(seed_, static_cast<std::uint64_t>(chunk), start_.point);
+    run(orbits, maps_, window_, start_.steps, nullptr);
     const std::int64_t points = std::min(points_per_chunk, points_ - chunk * points_per_chunk);
     constexpr auto side_by_side = static_cast<std::int64_t>(orbit_count);
     run(orbits, maps_, window_, points / side_by_side, &tally);
@@ -137,8 +82,7 @@ class Game {
   Window window_;
   std::uint64_t seed_;
   std::int64_t points_;
-  Vector3 start_;
-  std::int64_t forget_;
+  Start start_;
 };
 
 // Histograms that are filled side by side, added up at the end: as many as there are threads, but a single one where

@@ -56,6 +56,19 @@ struct Coefficients {
   }
 };
 
+// Where all orbits begin, and how many steps each takes before its points count.
+struct Start {
+  static constexpr std::int64_t most_steps = 1 << 14;
+
+  explicit Start(const System& system);
+
+  int letter;     // of an active map
+  Vector3 point;  // which that map leaves where it is: the letter repeated for ever is its address
+  // After which a point has forgotten where it began, to 2^-32 of the attractor's size: the longest of some hundred
+  // random words whose products shrink to that.
+  std::int64_t steps;
+};
+
 // `steps` steps of all orbits, counted in the pixels of the window, or not at all where there is no tally.
 void run(Orbits<float>& orbits, const Coefficients<float>& maps, const Window& window, std::int64_t steps,
          const Tally* tally);

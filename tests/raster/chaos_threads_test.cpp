@@ -1,4 +1,8 @@
+#include <chrono>
+#include <thread>
+
 #include "base/parallel.h"
+#include "raster/points.h"
 #include "support.h"
 
 using namespace ifsm::core;
@@ -16,6 +20,32 @@ TEST(ChaosGame, GivesTheSameBitsOnAnyNumberOfThreads) {
     if (threads == 1) one = counts.pixels;
     EXPECT_EQ(counts.pixels, one) << threads;
   }
+}
+
+TEST(ChaosPoints, AreTheSameBitsOnAnyNumberOfThreads) {
+  const auto fern = named_system("fern_3d");
+  ChaosPoints one;
+  for (const int threads : {1, 2, 3, 7}) {
+    const Threads most(threads);
+    Watch watch;
+    const ChaosPoints told = chaos_points(*fern, 1, (2 << 20) + 3, 5, watch);
+    if (threads == 1) one = told;
+    EXPECT_EQ(told.points, one.points) << threads;
+    EXPECT_EQ(told.letters, one.letters) << threads;
+  }
+}
+
+TEST(ChaosPoints, AreCancelledAlsoWithinAChunk) {
+  const auto fern = named_system("fern");
+  // A single chunk, which has some 100 ms to do: 256 MB of letters.
+  CancelToken token;
+  Watch watch(&token, {});
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    token.request();
+  });
+  EXPECT_THROW(chaos_points(*fern, 1, 1 << 12, most_letters, watch), Cancelled);
+  other.join();
 }
 
 TEST(ChaosGame, IsCancelledAndTellsProgressThatGrows) {

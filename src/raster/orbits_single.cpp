@@ -1,0 +1,229 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "raster/orbits_single.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once a target
+// The order matters: highway.h after foreach_target.h.
+#include <hwy/highway.h>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "raster/orbits.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ifsm::core {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+const hn::CappedTag<float, 16> reals;
+const hn::RebindToSigned<decltype(reals)> integers;
+const hn::RebindToUnsigned<decltype(reals)> words;
+using Reals = hn::Vec<decltype(reals)>;
+using Integers = hn::Vec<decltype(integers)>;
+using Words = hn::Vec<decltype(words)>;
+constexpr std::size_t width = hn::MaxLanes(decltype(reals)());
+
+// A table that an index is looked up in, lane by lane. In one register, in two, or in memory.
+enum class Held { one, two, memory };
+
+template <class Tag, Held held>
+class Table {
+ public:
+  using Number = hn::TFromD<Tag>;
+  using Vector = hn::Vec<Tag>;
+
+  // As many entries as slots, a power of two.
+  explicit Table(const std::vector<Number>& entries) : memory_(entries.data()) {
+    if constexpr (held != Held::memory) {
+      HWY_ALIGN Number filled[2 * width];
+      for (std::size_t k = 0; k < 2 * width; ++k) filled[k] = entries[k % entries.size()];
+      low_ = hn::Load(Tag(), filled);
+      high_ = hn::Load(Tag(), filled + width);
+    }
+  }
+
+  HWY_INLINE Vector operator()(const Integers index) const {
+    const Tag tag;
+    if constexpr (held == Held::memory) return hn::GatherIndex(tag, memory_, index);
+    if constexpr (held == Held::one) return hn::TableLookupLanes(low_, hn::IndicesFromVec(tag, index));
+    const auto within =
+        hn::IndicesFromVec(tag, hn::And(index, hn::Set(integers, static_cast<std::int32_t>(width) - 1)));
+    const auto above = hn::Gt(index, hn::Set(integers, static_cast<std::int32_t>(width) - 1));
+    return hn::IfThenElse(hn::RebindMask(tag, above), hn::TableLookupLanes(high_, within),
+                          hn::TableLookupLanes(low_, within));
+  }
+
+ private:
+  const Number* memory_;
+  Vector low_{}, high_{};
+};
+
+// The pixel of each lane's point. Single precision may see a point on the wrong side of a pixel's edge; those near one
+// are seen again in double, which tells points that are *on* an edge as plain::chaos_counts does.
+class Pixels {
+ public:
+  explicit Pixels(const Window& window)
+      : grid_(window),
+        left_(hn::Set(reals, static_cast<float>(window.left + .5 / parts / grid_.columns_per_unit))),
+        top_(hn::Set(reals, static_cast<float>(window.top - .5 / parts / grid_.rows_per_unit))),
+        columns_per_unit_(hn::Set(reals, static_cast<float>(grid_.columns_per_unit * parts))),
+        rows_per_unit_(hn::Set(reals, static_cast<float>(grid_.rows_per_unit * parts))),
+        width_(hn::Set(integers, static_cast<std::int32_t>(window.width))),
+        height_(hn::Set(words, static_cast<std::uint32_t>(window.height))),
+        outside_(hn::Set(integers, static_cast<std::int32_t>(window.pixels()))) {}
+
+  HWY_INLINE void operator()(const Reals x, const Reals y, std::int32_t* pixels) const {
+    const Integers across = in_parts(hn::Mul(hn::Sub(x, left_), columns_per_unit_));
+    const Integers down = in_parts(hn::Mul(hn::Sub(top_, y), rows_per_unit_));
+    const Integers column = hn::ShiftRight<part_bits>(across), row = hn::ShiftRight<part_bits>(down);
+    // Negative ones are large when read as unsigned.
+    const auto inside = hn::And(hn::Lt(hn::BitCast(words, column), hn::BitCast(words, width_)),
+                                hn::Lt(hn::BitCast(words, row), height_));
+    const Integers pixel = hn::Add(hn::Mul(row, width_), column);
+    hn::Store(hn::IfThenElse(hn::RebindMask(integers, inside), pixel, outside_), integers, pixels);
+
+    // The first or the last part of a pixel: all bits between the lowest and the pixel's are zero after adding 1.
+    const Integers one = hn::Set(integers, 1), between = hn::Set(integers, parts - 2), zero = hn::Zero(integers);
+    const auto near_edge = hn::Or(hn::Eq(hn::And(hn::Add(across, one), between), zero),
+                                  hn::Eq(hn::And(hn::Add(down, one), between), zero));
+    if (!hn::AllFalse(integers, near_edge)) see_again(x, y, near_edge, pixels);
+  }
+
+ private:
+  // Coordinates are below 2^11 pixels (single_precision_suffices), so one is rounded to 2^-13 of a pixel; the roundings
+  // of the point, the corner, their difference, the factor and the product add up to less than a part.
+  static constexpr int part_bits = 10;
+  static constexpr std::int32_t parts = 1 << part_bits;
+
+  // The nearest whole number of one below 2^22: that of 2^-10 pixels below a coordinate, since half a one is in the
+  // corner already. In the sum with 1.5 · 2^23 the unit is the last place.
+  HWY_INLINE static Integers in_parts(const Reals coordinate) {
+    const Reals middle = hn::Set(reals, 0x1.8p23F);
+    return hn::Sub(hn::BitCast(integers, hn::Add(coordinate, middle)), hn::BitCast(integers, middle));
+  }
+
+  HWY_NOINLINE void see_again(const Reals x, const Reals y, const hn::Mask<decltype(integers)> which,
+                              std::int32_t* pixels) const {
+    HWY_ALIGN float xs[width], ys[width];
+    hn::Store(x, reals, xs);
+    hn::Store(y, reals, ys);
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(integers, which, bits);
+    for (std::uint32_t left = bits[0] | static_cast<std::uint32_t>(bits[1]) << 8; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      pixels[lane] =
+          static_cast<std::int32_t>(grid_.pixel(static_cast<double>(xs[lane]), static_cast<double>(ys[lane])));
+    }
+  }
+
+  Grid grid_;
+  Reals left_, top_, columns_per_unit_, rows_per_unit_;
+  Integers width_;
+  Words height_;
+  Integers outside_;
+};
+
+template <Held held>
+class Steps {
+ public:
+  explicit Steps(const Coefficients<float>& m)
+      : bits_(m.choice.bits()),
+        share_(m.choice.share()),
+        other_(m.choice.other()),
+        a_(m.a),
+        b_(m.b),
+        c_(m.c),
+        d_(m.d),
+        e_(m.e),
+        f_(m.f) {}
+
+  // One step of all orbits; tell(orbit, x, y) of each vector of them.
+  template <class Tell>
+  HWY_INLINE void operator()(Orbits<float>& o, const Tell& tell) const {
+    for (std::size_t orbit = 0; orbit < orbit_count; orbit += width) {
+      const Integers map = chosen(next(o.random, orbit));
+      const Reals x = hn::Load(reals, &o.x[orbit]), y = hn::Load(reals, &o.y[orbit]);
+      const Reals next_x = hn::Add(hn::Add(hn::Mul(a_(map), x), hn::Mul(b_(map), y)), e_(map));
+      const Reals next_y = hn::Add(hn::Add(hn::Mul(c_(map), x), hn::Mul(d_(map), y)), f_(map));
+      hn::Store(next_x, reals, &o.x[orbit]);
+      hn::Store(next_y, reals, &o.y[orbit]);
+      tell(orbit, next_x, next_y);
+    }
+  }
+
+ private:
+  HWY_INLINE Words next(RandomWords& r, std::size_t orbit) const {
+    const Words a = hn::Load(words, &r.a[orbit]), b = hn::Load(words, &r.b[orbit]), c = hn::Load(words, &r.c[orbit]);
+    const Words counter = hn::Load(words, &r.counter[orbit]);
+    const Words word = hn::Add(hn::Add(a, b), counter);
+    hn::Store(hn::Add(counter, hn::Set(words, 1)), words, &r.counter[orbit]);
+    hn::Store(hn::Xor(b, hn::ShiftRight<9>(b)), words, &r.a[orbit]);
+    hn::Store(hn::Add(c, hn::ShiftLeft<3>(c)), words, &r.b[orbit]);
+    hn::Store(hn::Add(hn::RotateRight<11>(c), word), words, &r.c[orbit]);
+    return word;
+  }
+  HWY_INLINE Integers chosen(const Words random) const {
+    const Integers slot = hn::BitCast(integers, hn::ShiftRightSame(random, 32 - bits_));
+    const Integers rest = hn::BitCast(integers, hn::ShiftRight<1>(hn::ShiftLeftSame(random, bits_)));
+    return hn::IfThenElse(hn::Lt(rest, share_(slot)), slot, other_(slot));
+  }
+
+  int bits_;
+  Table<decltype(integers), held> share_, other_;
+  Table<decltype(reals), held> a_, b_, c_, d_, e_, f_;
+};
+
+template <Held held>
+HWY_NOINLINE void run_held(Orbits<float>& orbits, const Coefficients<float>& maps, const Window& window,
+                           std::int64_t steps, const Tally* tally) {
+  const Steps<held> step(maps);
+  if (tally == nullptr) {
+    for (std::int64_t k = 0; k < steps; ++k) step(orbits, [](std::size_t, const Reals, const Reals) {});
+    return;
+  }
+  const Pixels pixels(window);
+  const Tally count = *tally;
+  HWY_ALIGN std::int32_t hit[orbit_count];
+  constexpr std::size_t most_full = 1024;
+  std::int32_t full[most_full];
+  std::size_t full_count = 0;
+  const auto carry_all = [&] {
+    for (std::size_t k = 0; k < full_count; ++k) count.carry(full[k]);
+    full_count = 0;
+  };
+  for (std::int64_t k = 0; k < steps; ++k) {
+    step(orbits, [&](std::size_t orbit, const Reals x, const Reals y) { pixels(x, y, hit + orbit); });
+    for (const std::int32_t pixel : hit)
+      if (count.fills(pixel)) full[full_count++] = pixel;
+    if (full_count > most_full - orbit_count) carry_all();
+  }
+  carry_all();
+}
+
+void run_orbits(Orbits<float>& orbits, const Coefficients<float>& maps, const Window& window, std::int64_t steps,
+                const Tally* tally) {
+  if (maps.choice.slots() <= width)
+    run_held<Held::one>(orbits, maps, window, steps, tally);
+  else if (maps.choice.slots() <= 2 * width)
+    run_held<Held::two>(orbits, maps, window, steps, tally);
+  else
+    run_held<Held::memory>(orbits, maps, window, steps, tally);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace ifsm::core
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace ifsm::core {
+
+HWY_EXPORT(run_orbits);
+
+void run(Orbits<float>& orbits, const Coefficients<float>& maps, const Window& window, std::int64_t steps,
+         const Tally* tally) {
+  HWY_DYNAMIC_DISPATCH(run_orbits)(orbits, maps, window, steps, tally);
+}
+
+}  // namespace ifsm::core
+#endif
