@@ -2,32 +2,15 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
-#include "base/error.h"
+#include "io/text_lines.h"
 
 namespace ifsm::core {
 namespace {
 
 constexpr std::size_t most_systems = 1 << 12, most_text = std::size_t{1} << 26;
-
-Error at_line(Status status, std::int64_t line, const std::string& says) {
-  return Error(status, "text", "Line " + std::to_string(line) + ": " + says).at(line);
-}
-
-bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
-
-// What a message may hold of a stranger's file.
-std::string quoted(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  std::string shown(text.substr(0, longest));
-  for (char& c : shown)
-    if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
-  return '"' + shown + (text.size() > longest ? "…\"" : "\"");
-}
 
 std::string lower(std::string_view text) {
   std::string result(text);
@@ -74,17 +57,6 @@ class Reader {
   std::int64_t line_ = 1;
 };
 
-double number(std::string_view word, std::int64_t line) {
-  const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-  double value = 0;
-  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (problem == std::errc::result_out_of_range || (end == digits.data() + digits.size() && !std::isfinite(value)))
-    throw at_line(Status::not_finite, line, quoted(word) + " is no number that a double holds; give a finite one.");
-  if (problem != std::errc() || end != digits.data() + digits.size())
-    throw at_line(Status::format, line, quoted(word) + " is no number; a system's rows hold numbers up to \"}\".");
-  return value;
-}
-
 // The numbers of a block, its brace left behind.
 std::vector<double> numbers(Reader& reader, int dimension, const std::string& name) {
   const std::int64_t begin = reader.line();
@@ -95,7 +67,9 @@ std::vector<double> numbers(Reader& reader, int dimension, const std::string& na
       throw at_line(Status::format, begin, "The system " + quoted(name) + " has no end; close it by \"}\".");
     if (reader.front() == '}') break;
     const std::int64_t line = reader.line();
-    values.push_back(number(reader.until(" \t\r\n\f\v,;}"), line));
+    const std::string_view word = reader.until(" \t\r\n\f\v,;}");
+    if (const Status status = read_number(word, values.emplace_back()); status != Status::ok)
+      throw no_number(status, word, line, "a system's rows hold numbers up to \"}\".");
     if (values.size() > per_map * static_cast<std::size_t>(System::most_maps))
       throw at_line(Status::limit, line, "The system " + quoted(name) + " has more than 256 maps.");
   }

@@ -1,0 +1,23 @@
+// Systems in flam3's XML files, `.flame`: those flames whose maps are affine. Of flam3 3.1.1; docs/format.md says what
+// is read, what is ignored, and what is refused.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "system/system.h"
+
+namespace ifsm::core {
+
+struct FlameSystem {
+  std::string name;
+  SystemPtr system;
+};
+
+// All flames of a file, in its order, whatever elements are around them; one without a name has its number, from 1.
+// What is wrong, or is not affine, is a format error that names the flame and its transform ("xform 2 of the flame
+// "x""), or the system's own; the line where the element begins, counted from 1, is in the text and the index.
+std::vector<FlameSystem> read_flame(std::string_view text);
+
+}  // namespace ifsm::core
