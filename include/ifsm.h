@@ -520,7 +520,7 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_keep(ifsm_model model, const ifsm_
                                                    ifsm_model *kept);
 
 /* File formats: one schema (docs/format.md), as JSON text or CBOR bytes. Doubles come back bit for bit. */
-enum { IFSM_FORMAT_JSON = 0, IFSM_FORMAT_CBOR = 1 };
+enum { IFSM_FORMAT_JSON = 0, IFSM_FORMAT_CBOR = 1, IFSM_FORMAT_FRACTINT = 2 /* systems alone */ };
 
 /* A model as bytes. Details that are zero are not stored.
  *
@@ -1343,6 +1343,223 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_evaluate(ifsm_deformer deformer
  * Details below the deepest moved handles are the model's, turned; sparse ones stay sparse.
  * model  [out] owned by the caller. Errors: INVALID_HANDLE, NULL, BUSY, MEMORY. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_deformer_snapshot(ifsm_deformer deformer, ifsm_model *model);
+
+/* ------------------------------------------------------------------------------------------------------------------
+ * Systems: iterated function systems (IFS), some affine maps x -> M x + t of the plane or of space
+ *
+ * The *attractor* is the one compact set that is the union of its images under the maps; the *measure* on it is the mean
+ * of its own images, by the maps' *probabilities*: how often a random point comes by. Maps of probability 0 are there
+ * and take no part. A *word* is a list of maps, the outermost first; the word (i, j) stands for x -> map_i(map_j(x)). An
+ * *address* is an endless word: its maps, taken ever longer, close in on one point of the attractor.
+ *
+ * Systems are immutable. Everything but a system's own parts asks for contractive maps, which is proven, or refuted by
+ * a word that does not contract (RANGE, argument "system"), or undecided (NUMERICAL). Lengths are in the system's own
+ * units. Sources: M. Barnsley, Fractals Everywhere, 1988; docs/systems.md.
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+typedef struct ifsm_system {
+  uint64_t id;
+} ifsm_system;
+
+/* A system from its maps.
+ *
+ * dimension           d, 2 or 3
+ * maps                copied: 1 … 256 maps of d × (d + 1) doubles, row by row (M | t). In the plane a b e c d f
+ * count               doubles in `maps`
+ * probabilities       copied: one a map, not negative; divided by their sum. NULL with 0: |det M|, but at least a 25th
+ *                     of the maps' mean |det|, so that flat maps are taken too (all flat: all alike)
+ * probability_count   as many as maps, or 0
+ * system              [out] owned by the caller
+ *
+ * Maps may be singular, may reflect, and need not be contractive. Errors: NULL, RANGE, SHAPE, NOT_FINITE, MEMORY. Any
+ * thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_create(int32_t dimension, const double *maps, int64_t count,
+                                                      const double *probabilities, int64_t probability_count,
+                                                      ifsm_system *system);
+
+/* A system from what its maps do: shear, then scale, then turn, then move. Paper 000: the best level of control.
+ *
+ * parameters   copied: for each map in the plane angle, scale x, scale y, shear, shift x, shift y: M = turn · diag(scale)
+ *              · (1 shear | 0 1). In space 12: axis times angle, scales, shears xy, xz, yz, shifts. Angles in radians
+ *
+ * Everything else as ifsm_system_create. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_from_parameters(int32_t dimension, const double *parameters, int64_t count,
+                                                               const double *probabilities, int64_t probability_count,
+                                                               ifsm_system *system);
+
+/* A system by name: those that ifsm_system_catalog lists, and "fern", "gasket", "dragon", "koch", "levy", "snowflake",
+ * "sponge" for the best known of their kinds; "-" and "_" are the same. Errors: NULL, RANGE (an unknown name lists the
+ * known ones), MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_named(const char *name, ifsm_system *system);
+
+typedef struct ifsm_system_entry {
+  uint32_t struct_size;
+  int32_t dimension;
+  const char *name;   /* static storage, like `source` */
+  const char *source; /* a paper and its figure, or where it is found */
+} ifsm_system_entry;
+
+/* What systems there are by name.
+ * index   0 …; RANGE past the last, whose message says how many there are
+ * entry   [out] with struct_size set. Errors: NULL, RANGE, OPTIONS. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_catalog(int64_t index, ifsm_system_entry *entry);
+
+/* The system that a detail model without its details is: its attractor is the model's IFSM_CURVE_LIMIT, its maps are
+ * equally likely.
+ *
+ * model   borrowed: in the plane with 3 control points, or in space with 4, not on a line (in a plane)
+ *
+ * Errors: INVALID_HANDLE, NULL, SHAPE, SINGULAR, MEMORY. Source: paper 002, with n = d + 1. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_from_model(ifsm_model model, ifsm_system *system);
+
+/* And back: a model without details whose limit is the attractor of the active maps, in their order (2 … 8).
+ *
+ * topology   IFSM_TOPOLOGY_…. Square: any maps. Joined: the pieces are one chain: the first map's fixed point is where
+ *            it begins, the last one's where it ends, and each map leads its end to where the next one leads its
+ *            beginning
+ * polygon    borrowed: d + 1 points, not on a line (in a plane); joined: from the beginning to the end, inner ones free.
+ *            NULL: chosen
+ * levels     as in ifsm_model_from_polygon
+ * model      [out] owned by the caller
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, NUMERICAL, SHAPE (joined: argument "system", index the map where the chain breaks),
+ * SINGULAR (flat maps of which no filter can be made), NOT_FINITE, LIMIT, MEMORY. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_model(ifsm_system system, int32_t topology, const ifsm_curve *polygon,
+                                                     int32_t levels, ifsm_model *model);
+
+typedef struct ifsm_system_info {
+  uint32_t struct_size;
+  int32_t dimension;   /* 2 or 3 */
+  int32_t maps;        /* 1 … 256 */
+  int32_t active;      /* those of a probability above 0 */
+  int32_t contractive; /* 1 proven, -1 refuted, 0 undecided: all words of the active maps */
+  int32_t word_length; /* the longest word that was needed, or tried; refuted: that of ifsm_system_witness */
+  double radius;       /* refuted: the spectral radius of the witness, at least 1; else NaN */
+} ifsm_system_info;
+
+/* info   [out] with struct_size set. A look-up. Errors: INVALID_HANDLE, NULL, OPTIONS. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_describe(ifsm_system system, ifsm_system_info *info);
+
+/* Its parts: the maps as ifsm_system_create takes them; as ifsm_system_from_parameters does (scales not negative but for
+ * the last, which has det's sign; angles above -pi, up to pi); the probabilities, of sum 1; and each map's fixed point (d
+ * doubles; not finite where a map has none or many).
+ * Errors: INVALID_HANDLE, NULL, CAPACITY, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_maps(ifsm_system system, double *maps, int64_t capacity, int64_t *count);
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_parameters(ifsm_system system, double *parameters, int64_t capacity,
+                                                          int64_t *count);
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_probabilities(ifsm_system system, double *probabilities,
+                                                             int64_t capacity, int64_t *count);
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_fixed_points(ifsm_system system, double *points, int64_t capacity,
+                                                            int64_t *count);
+
+/* symbols   [out] the word that refutes contractivity; none when it is not refuted. Errors: INVALID_HANDLE, NULL, CAPACITY,
+ * MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_witness(ifsm_system system, int32_t *symbols, int64_t capacity,
+                                                       int64_t *count);
+
+/* {0} is fine. Errors: INVALID_HANDLE. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_destroy(ifsm_system system);
+
+/* The map that a word is.
+ * symbols   borrowed: numbers of maps; none for the identity
+ * map       [out] d × (d + 1) doubles, row by row (M | t). Errors: INVALID_HANDLE, NULL, RANGE (index: the symbol),
+ * CAPACITY, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_word(ifsm_system system, const int32_t *symbols, int64_t symbol_count,
+                                                    double *map, int64_t capacity, int64_t *count);
+
+/* The point of an address: `symbols`, the last `period` of which are repeated for ever.
+ * symbols   borrowed: numbers of active maps
+ * period    1 … symbol_count
+ * point     [out] d doubles. Errors: INVALID_HANDLE, NULL, RANGE, NUMERICAL, CAPACITY, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_point(ifsm_system system, const int32_t *symbols, int64_t symbol_count,
+                                                     int64_t period, double *point, int64_t capacity, int64_t *count);
+
+/* And back: the words of a length in whose pieces of the attractor a point lies: all that are within `tolerance` of it,
+ * none that is farther than twice that. Several where pieces touch or overlap; none beside the attractor.
+ *
+ * point         borrowed: d doubles
+ * length        1 … 1024
+ * tolerance     > 0; 0: 1e-9 of the attractor's size
+ * symbols       [out] `length` symbols for each word, words in order
+ *
+ * Errors: INVALID_HANDLE, NULL, SHAPE (point_count), RANGE, NOT_FINITE, NUMERICAL, CAPACITY, LIMIT (more than 65536 words, or
+ * too many pieces), MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_addresses(ifsm_system system, const double *point, int64_t point_count,
+                                                         int32_t length, double tolerance, int32_t *symbols,
+                                                         int64_t capacity, int64_t *count);
+
+/* Where the attractor is. Answers hold it, rounding included, and are too large by at most `tolerance`: above 2^-44 of
+ * the attractor's size; 0: 1e-9 of it. By branch and bound: .05 to .6 ms for the boxes of most named systems, some ms for
+ * diameters; a ball's centre is that of the smallest ball up to a hundredth of the radius, which takes some 20 ms.
+ *
+ * box        [out] 2 d doubles: lowest coordinates, highest ones
+ * ball       [out] d + 1 doubles: centre, radius
+ * diameter   [out] the distance of the two points that are farthest from each other
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, NUMERICAL, CAPACITY, LIMIT (too many pieces), MEMORY. Any thread.
+ * Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_box(ifsm_system system, double tolerance, double *box, int64_t capacity,
+                                                   int64_t *count);
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_ball(ifsm_system system, double tolerance, double *ball,
+                                                    int64_t capacity, int64_t *count);
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_diameter(ifsm_system system, double tolerance, double *diameter);
+
+/* Moments of the measure, the mean of (x - about)^a over it: exact, by linear systems.
+ *
+ * degree    1 … 8
+ * about     borrowed: d doubles; NULL with 0: the origin
+ * moments   [out] those of degree 0, 1, … degree; within a degree, powers of x fall, then those of y: 1, x, y, xx, xy, yy, …
+ *
+ * Errors: INVALID_HANDLE, NULL, SHAPE (about_count), RANGE, NOT_FINITE, NUMERICAL, CAPACITY, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_moments(ifsm_system system, int32_t degree, const double *about,
+                                                       int64_t about_count, double *moments, int64_t capacity,
+                                                       int64_t *count);
+
+/* dimension   [out] s of Moran's equation, the sum of r^s = 1 over the active maps' ratios r: the Hausdorff dimension where
+ * pieces overlap little, else above it. Errors: INVALID_HANDLE, NULL, SHAPE (index: the first map that is no
+ * similarity), RANGE, NUMERICAL. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_similarity_dimension(ifsm_system system, double *dimension);
+
+/* The box-counting dimension, estimated: cubes of grids of 2, 4, … 2^finest a side that the attractor meets. The line is
+ * fitted to those of 16 a side and more. Some hundredths off; a tenth for shapes that fill the plane and have a rough edge.
+ *
+ * finest   6 … 13 in the plane, 6 … 9 in space; 0: 10, and 7
+ * report   [out] with struct_size set
+ * rows     [out] for each grid 2 doubles: the side, growing smaller, and the count
+ *
+ * Takes some .1 s, overlapping systems seconds. Errors: INVALID_HANDLE, NULL, RANGE, SHAPE (the attractor is a point),
+ * NUMERICAL, CAPACITY, OPTIONS, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_box_dimension(ifsm_system system, int32_t finest,
+                                                             ifsm_dimension_report *report, double *rows,
+                                                             int64_t capacity, int64_t *count);
+
+/* A system as bytes (docs/format.md); doubles come back bit for bit.
+ *
+ * format   IFSM_FORMAT_JSON, IFSM_FORMAT_CBOR, or IFSM_FORMAT_FRACTINT: text as Fractint reads it, of one system
+ * name     borrowed: what a Fractint file calls it, made a word; NULL: "system"
+ * bytes    [out] text is UTF-8 without a terminating NUL; capacity, count as in ifsm_model_save
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, CAPACITY, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_save(ifsm_system system, int32_t format, const char *name, uint8_t *bytes,
+                                                    int64_t capacity, int64_t *count);
+
+/* A system from bytes: JSON, CBOR, Fractint's text, or flam3's XML where it is affine (what is not is refused by name);
+ * the first byte tells which.
+ *
+ * bytes    borrowed
+ * name     borrowed: which of a file of several; NULL: the only one
+ * system   [out] owned by the caller
+ *
+ * Errors: NULL, RANGE (an unknown name, or none for a file of several, lists those that there are), FORMAT (index: the
+ * byte, or of text the line from 1), VERSION, LIMIT, NOT_FINITE, SHAPE, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_load(const uint8_t *bytes, int64_t count, const char *name,
+                                                    ifsm_system *system);
+
+/* The names of a file's systems.
+ * names   [out] one a line, each ended by a newline, without a terminating NUL; JSON and CBOR have no names: an empty line
+ * Errors: as ifsm_system_load, and CAPACITY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_file_names(const uint8_t *file, int64_t file_count, uint8_t *names,
+                                                          int64_t capacity, int64_t *count);
 
 #ifdef __cplusplus
 }

@@ -284,7 +284,7 @@ SystemPtr system_of(const Place& place) {
   try {
     return flame.system();
   } catch (const Error& error) {
-    if (error.argument() == "text") throw;
+    if (error.argument() == "bytes") throw;
     throw place.error(std::string("is no system. ") + error.what(), error.status());
   }
 }

@@ -7,7 +7,7 @@
 namespace ifsm::core {
 
 Error at_line(Status status, std::int64_t line, const std::string& says) {
-  return Error(status, "text", "Line " + std::to_string(line) + ": " + says).at(line);
+  return Error(status, "bytes", "Line " + std::to_string(line) + ": " + says).at(line);
 }
 
 std::string quoted(std::string_view text) {

@@ -9,7 +9,7 @@
 
 namespace ifsm::core {
 
-// Argument "text", the line, counted from 1, in the message and as the index.
+// Argument "bytes", the line, counted from 1, in the message and as the index.
 Error at_line(Status status, std::int64_t line, const std::string& says);
 
 // What a message may hold of a stranger's file: in quotes, cut, without characters that do not print.

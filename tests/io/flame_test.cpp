@@ -186,7 +186,7 @@ TEST(Flame, RefusesByName) {
     const Error error = error_of(each.text);
     EXPECT_EQ(error.status(), each.status) << each.text << "\n" << error.what();
     EXPECT_EQ(error.index(), each.line) << each.text << "\n" << error.what();
-    EXPECT_EQ(error.argument(), "text");
+    EXPECT_EQ(error.argument(), "bytes");
     EXPECT_NE(std::string(error.what()).find(each.says), std::string::npos) << error.what();
   }
 }

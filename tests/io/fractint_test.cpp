@@ -86,7 +86,7 @@ TEST(Fractint, NamesTheLineThatIsWrong) {
     const Error error = error_of(each.text);
     EXPECT_EQ(error.status(), each.status) << each.text << "\n" << error.what();
     EXPECT_EQ(error.index(), each.line) << each.text << "\n" << error.what();
-    EXPECT_EQ(error.argument(), "text");
+    EXPECT_EQ(error.argument(), "bytes");
   }
   std::string many = "many {\n";
   for (int k = 0; k < 257; ++k) many += ".5 0 0 .5 0 0 1\n";

@@ -1,0 +1,25 @@
+// Systems from files of any of the formats that are known; what is at their beginning tells which.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "system/system.h"
+
+namespace ifsm::core {
+
+struct NamedFileSystem {
+  std::string name;  // "" in formats of a single system, which has none
+  SystemPtr system;
+};
+
+// JSON and CBOR hold one system; Fractint's text and flam3's XML any number. Errors are those of the formats' readers.
+std::vector<NamedFileSystem> read_systems(std::span<const std::uint8_t> bytes);
+
+// The one of that name, or the only one. A range error, argument "name", lists those that there are.
+SystemPtr read_system_named(std::span<const std::uint8_t> bytes, std::optional<std::string_view> name);
+
+}  // namespace ifsm::core
