@@ -1424,8 +1424,8 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_from_model(ifsm_model model, ifsm
  *
  * Errors: INVALID_HANDLE, NULL, RANGE, NUMERICAL, SHAPE (joined: argument "system", index the map where the chain breaks),
  * SINGULAR (flat maps of which no filter can be made), NOT_FINITE, LIMIT, MEMORY. Since 0.1. */
-IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_model(ifsm_system system, int32_t topology, const ifsm_curve *polygon,
-                                                     int32_t levels, ifsm_model *model);
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_model_from_system(ifsm_system system, int32_t topology,
+                                                          const ifsm_curve *polygon, int32_t levels, ifsm_model *model);
 
 typedef struct ifsm_system_info {
   uint32_t struct_size;
@@ -1558,7 +1558,7 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_load(const uint8_t *bytes, int64_
 /* The names of a file's systems.
  * names   [out] one a line, each ended by a newline, without a terminating NUL; JSON and CBOR have no names: an empty line
  * Errors: as ifsm_system_load, and CAPACITY. Any thread. Since 0.1. */
-IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_file_names(const uint8_t *file, int64_t file_count, uint8_t *names,
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_file_names(const uint8_t *bytes, int64_t byte_count, uint8_t *names,
                                                           int64_t capacity, int64_t *count);
 
 #ifdef __cplusplus

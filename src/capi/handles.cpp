@@ -57,7 +57,7 @@ class SpinLock {
   std::atomic_flag flag_;
 };
 
-bool is_kind(std::uint64_t kind) { return kind >= 1 && kind <= static_cast<std::uint64_t>(Kind::deformer); }
+bool is_kind(std::uint64_t kind) { return kind >= 1 && kind <= static_cast<std::uint64_t>(Kind::system); }
 
 }  // namespace
 
@@ -77,6 +77,7 @@ const char* kind_name(Kind kind) {
     case Kind::model: return "model";
     case Kind::fit: return "fit";
     case Kind::deformer: return "deformer";
+    case Kind::system: return "system";
   }
   return "handle";
 }

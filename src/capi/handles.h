@@ -16,7 +16,7 @@
 
 namespace ifsm::core {
 
-enum class Kind : std::uint8_t { cancel = 1, filter = 2, model = 3, fit = 4, deformer = 5 };
+enum class Kind : std::uint8_t { cancel = 1, filter = 2, model = 3, fit = 4, deformer = 5, system = 6 };
 
 // "model" for Kind::model.
 const char* kind_name(Kind kind);

@@ -54,14 +54,6 @@ std::vector<double> rows_of(const Nearest& found) {
   return rows;
 }
 
-// Two columns side by side.
-std::vector<double> rows_of(const std::vector<double>& left, const std::vector<double>& right) {
-  std::vector<double> rows;
-  rows.reserve(2 * left.size());
-  for (std::size_t i = 0; i < left.size(); ++i) rows.insert(rows.end(), {left[i], right[i]});
-  return rows;
-}
-
 ScaleRange range_of(const ifsm_dimension_options& options) {
   in_range(options.reserved, 0, 0, "reserved");
   ScaleRange range;

@@ -15,6 +15,7 @@ struct Deforming;
 class Filter;
 class Model;
 struct FitResult;
+class System;
 
 template <class Handle>
 struct Noun;
@@ -44,6 +45,12 @@ template <>
 struct Noun<ifsm_deformer> {
   using Object = Deforming;  // not const: its flag says who may use it
   static constexpr Kind kind = Kind::deformer;
+};
+
+template <>
+struct Noun<ifsm_system> {
+  using Object = const System;
+  static constexpr Kind kind = Kind::system;
 };
 
 template <class Handle>

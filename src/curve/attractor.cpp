@@ -132,11 +132,12 @@ void make_barycentric(RowMatrix& t) {
 }
 
 void require_points(const Points& polygon, Index dimension) {
-  if (polygon.dimension() == dimension && polygon.count() == dimension + 1) return;
-  throw Error(Status::shape, "polygon",
-              "A system of dimension " + std::to_string(dimension) + " has a polygon of " +
-                  std::to_string(dimension + 1) + " points in its space; " + std::to_string(polygon.count()) +
-                  " of dimension " + std::to_string(polygon.dimension()) + " were given.")
+  in_range(polygon.dimension(), dimension, dimension, "dimension");
+  if (polygon.count() == dimension + 1) return;
+  throw Error(Status::shape, "count",
+              "The polygon has " + std::to_string(polygon.count()) + " points; that of a system of dimension " +
+                  std::to_string(dimension) + " has " + std::to_string(dimension + 1) + ".")
+      .with(static_cast<double>(polygon.count()))
       .needs(dimension + 1);
 }
 

@@ -11,8 +11,8 @@ namespace {
 const Affine& letter(const System& system, std::span<const std::int64_t> word, std::size_t place) {
   const auto count = static_cast<std::int64_t>(system.maps().size());
   if (word[place] >= 0 && word[place] < count) return system.maps()[static_cast<std::size_t>(word[place])];
-  throw Error(Status::range, "word",
-              "word[" + std::to_string(place) + "] is " + std::to_string(word[place]) +
+  throw Error(Status::range, "symbols",
+              "symbols[" + std::to_string(place) + "] is " + std::to_string(word[place]) +
                   "; the system's maps are 0 to " + std::to_string(count - 1) + ".")
       .at(static_cast<std::int64_t>(place))
       .with(static_cast<double>(word[place]));
@@ -78,8 +78,8 @@ Vector3 point_of(const System& system, std::span<const std::int64_t> word, std::
   for (std::size_t k = 0; k < word.size(); ++k) {
     static_cast<void>(letter(system, word, k));
     if (system.probabilities()[static_cast<std::size_t>(word[k])] > 0) continue;
-    throw Error(Status::range, "word",
-                "word[" + std::to_string(k) + "] is " + std::to_string(word[k]) +
+    throw Error(Status::range, "symbols",
+                "symbols[" + std::to_string(k) + "] is " + std::to_string(word[k]) +
                     ", a map of probability 0, which the attractor has no piece of; give an active one.")
         .at(static_cast<std::int64_t>(k))
         .with(static_cast<double>(word[k]));

@@ -166,7 +166,7 @@ TEST(Misuse, AHundredThousandForgedHandlesAreRefused) {
   for_each({"handle"}, [&](const Function& function, std::size_t i, const Parameter& parameter) {
     Call call(world(), function);
     const std::uint64_t fresh = call[i].id;
-    std::set<std::uint64_t> live = {fresh};
+    std::set<std::uint64_t> live = {fresh, world().refuted()};
     for (const auto& entry : world().ids()) live.insert(entry.second);
     const std::uint64_t model = *std::next(live.begin(), static_cast<std::ptrdiff_t>(random() % live.size()));
     for (int k = 0; k < each; ++k) {

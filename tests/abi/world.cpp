@@ -92,6 +92,24 @@ World::World() {
   numbers_ = {{"L", info.levels}, {"L-1", info.levels - 1}, {"curves-1", 0}, {"budgets-1", 0}};
   numbers_["H-1"] = 4;  // handles of level 1
 
+  doubles_["maps"] = {.5, 0, 0, 0, .5, 0, .5, 0, .5, 0, .5, 0, .5, 0, 0, 0, .5, .5};  // the gasket's
+  doubles_["map_parameters"] = {0, .5, .5, 0, 0, 0, 0, .5, .5, 0, .5, 0, 0, .5, .5, 0, 0, .5};
+  doubles_["probabilities"] = {1, 2, 1};
+  doubles_["place"] = {.25, .25};
+  ids_["ifsm_system"] = fresh("ifsm_system");
+  const double growing[] = {0, 4, 0, 0, 0, 0, 0, 0, 0, .5, 0, 0};  // by a word of two
+  ifsm_system refuted{};
+  must(ifsm_system_create(2, growing, 12, nullptr, 0, &refuted), "refuted system");
+  refuted_ = refuted.id;
+  system_file_ = read<std::uint8_t>([&](std::uint8_t* to, std::int64_t room, std::int64_t* count) {
+    return ifsm_system_save({id("ifsm_system")}, IFSM_FORMAT_FRACTINT, "gasket", to, room, count);
+  });
+  std::int64_t systems = 0;
+  ifsm_system_entry entry{};
+  entry.struct_size = sizeof entry;
+  while (ifsm_system_catalog(systems, &entry) == IFSM_OK) ++systems;
+  numbers_["systems-1"] = systems - 1;
+
   ids_["ifsm_cancel"] = fresh("ifsm_cancel");
   ids_["ifsm_fit"] = fresh("ifsm_fit");
   ids_["ifsm_deformer"] = fresh("ifsm_deformer");
@@ -102,6 +120,7 @@ World::World() {
 
 World::~World() {
   for (const auto& [type, id] : ids_) static_cast<void>(destroy(type, id));
+  static_cast<void>(destroy("ifsm_system", refuted_));
 }
 
 std::uint64_t World::fresh(const std::string& type) const {
@@ -121,6 +140,11 @@ std::uint64_t World::fresh(const std::string& type) const {
     return made.id;
   }
   if (type == "ifsm_deformer") return deformer();
+  if (type == "ifsm_system") {
+    ifsm_system made{};
+    must(ifsm_system_create(2, doubles("maps").data(), 18, nullptr, 0, &made), "system");
+    return made.id;
+  }
   ifsm_fit made{};
   const ifsm_curve one = curve();
   ifsm_fit_curve_options options;  // the stage that every question about a fit can be asked
@@ -148,7 +172,13 @@ ifsm_status World::destroy(const std::string& type, std::uint64_t id) {
   if (type == "ifsm_cancel") return ifsm_cancel_destroy({id});
   if (type == "ifsm_filter") return ifsm_filter_destroy({id});
   if (type == "ifsm_model") return ifsm_model_destroy({id});
+  if (type == "ifsm_system") return ifsm_system_destroy({id});
   return ifsm_fit_destroy({id});
+}
+
+const std::vector<std::uint8_t>& World::saved(const std::string& what) const {
+  if (what == "edits") return edits_;
+  return what == "system" ? system_file_ : saved_;
 }
 
 std::int64_t World::number(const std::string& word) const {
@@ -197,6 +227,7 @@ void Call::prepare(std::size_t i) {
   const std::string& kind = parameter.kind;
   if (kind == "handle") {
     argument.id = is_own(parameter) ? world_.fresh(parameter.type) : world_.id(parameter.type);
+    if (parameter.good == "refuted") argument.id = world_.refuted();
   } else if (kind == "enum" || kind == "integer" || kind == "number") {
     argument.integer = std::stoll(parameter.good);
   } else if (kind == "double") {

@@ -29,7 +29,8 @@ class World {
   const std::vector<double>& doubles(const std::string& name) const { return doubles_.at(name); }
   const std::vector<std::int32_t>& ints(const std::string& name) const { return ints_.at(name); }
   const std::vector<std::int64_t>& wide_ints(const std::string& name) const { return wide_ints_.at(name); }
-  const std::vector<std::uint8_t>& saved(const std::string& what) const { return what == "edits" ? edits_ : saved_; }
+  const std::vector<std::uint8_t>& saved(const std::string& what) const;
+  std::uint64_t refuted() const { return refuted_; }  // a system that does not contract
   std::int64_t number(const std::string& word) const;  // "7", or "L", "L-1", "H-1", "curves-1", "budgets-1"
 
   ifsm_curve curve() const;
@@ -42,7 +43,8 @@ class World {
   std::map<std::string, std::vector<double>> doubles_;
   std::map<std::string, std::vector<std::int32_t>> ints_;
   std::map<std::string, std::vector<std::int64_t>> wide_ints_;
-  std::vector<std::uint8_t> saved_, edits_;
+  std::vector<std::uint8_t> saved_, edits_, system_file_;
+  std::uint64_t refuted_ = 0;
   std::map<std::string, std::int64_t> numbers_;
 };
 

@@ -37,7 +37,7 @@ TEST(PointOf, TellsTheTenthLetterThatIsNone) {
       point_of(*gasket, word, 2);
       ADD_FAILURE();
     } catch (const Error& error) {
-      EXPECT_EQ(error.argument(), "word");
+      EXPECT_EQ(error.argument(), "symbols");
       EXPECT_EQ(error.index(), 10);
     }
   }
