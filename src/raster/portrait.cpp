@@ -1,0 +1,243 @@
+#include "raster/portrait.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "raster/relief.h"
+#include "raster/walk.h"
+
+namespace ifsm::core {
+namespace {
+
+constexpr double full_light = 65535;
+using Light = std::array<std::uint32_t, 3>;  // in parts of full_light: integers, so that sums need no order
+
+Light whole(Rgb colour) {
+  const std::array<double, 3> light = light_of(colour);
+  Light result{};
+  for (std::size_t k = 0; k < 3; ++k) result[k] = static_cast<std::uint32_t>(std::lround(light[k] * full_light));
+  return result;
+}
+
+// Colours by number, and which number an orbit has. An address is kept as the share of the measure that lies in pieces
+// of smaller addresses: for i_1 i_2 … that is P_i1 + p_i1 (P_i2 + p_i2 (…)), P_i the sum of the probabilities before i. So
+// each shade of a palette is seen as often as any other.
+class Colours {
+ public:
+  static constexpr std::size_t most_letters = 16;
+  // Of the last so many letters; or of all, in the first place.
+  using Shares = std::array<double, most_letters>;
+
+  Colours(const System& system, const Look& look) : look_(look), probabilities_(system.probabilities()) {
+    in_range(look.letters, 0, most_letters, "letters");
+    double sum = 0;
+    for (const double p : probabilities_) before_.push_back(sum), sum += p;
+    if (look.colouring == Colouring::letter)
+      for (std::size_t i = 0; i < system.maps().size(); ++i) table_.push_back(whole(letter_colour(static_cast<int>(i))));
+    else
+      for (std::size_t k = 0; k < shades; ++k)
+        table_.push_back(whole(look.palette->at(static_cast<double>(k) / (shades - 1))));
+  }
+
+  void extend(Shares& shares, int letter) const {
+    const auto i = static_cast<std::size_t>(letter);
+    if (look_.letters == 0) {
+      shares[0] = before_[i] + probabilities_[i] * shares[0];
+      return;
+    }
+    for (auto k = static_cast<std::size_t>(look_.letters); k-- > 1;)
+      shares[k] = before_[i] + probabilities_[i] * shares[k - 1];
+    shares[0] = before_[i] + probabilities_[i] / 2;  // the middle of the piece
+  }
+
+  std::uint32_t number(const Shares& shares, int letter) const {
+    if (look_.colouring == Colouring::letter) return static_cast<std::uint32_t>(letter);
+    const double share = shares[look_.letters == 0 ? 0 : static_cast<std::size_t>(look_.letters) - 1];
+    return static_cast<std::uint32_t>(std::min(share, 1.0) * (shades - 1) + .5);
+  }
+
+  const Light& light(std::uint32_t number) const { return table_[number]; }
+  Rgb colour(std::uint32_t number) const {
+    const Light& l = table_[number];
+    return colour_of({l[0] / full_light, l[1] / full_light, l[2] / full_light});
+  }
+
+ private:
+  static constexpr std::size_t shades = 1024;
+
+  Look look_;
+  std::vector<double> probabilities_, before_;
+  std::vector<Light> table_;
+};
+
+// Plays all chunks, each into one of some canvases, as many as there are threads; the first one holds all in the end.
+// Canvas: see(orbit's address and letter, x), add(other).
+template <std::size_t d, class Canvas>
+Canvas paint(const System& system, const Colours& colours, const Canvas& empty, std::uint64_t seed, std::int64_t points,
+             Watch& watch) {
+  const WalkMaps<d> maps(system);
+  const Start start(system);
+  const std::int64_t chunks = (points + points_per_chunk - 1) / points_per_chunk;
+  const auto threads = std::max<std::int64_t>(std::thread::hardware_concurrency(), 1);
+  std::vector<Canvas> canvases(static_cast<std::size_t>(std::clamp<std::int64_t>(chunks, 1, threads)), empty);
+  const auto groups = static_cast<std::int64_t>(canvases.size());
+  for (std::int64_t done = 0; done < chunks; done += groups) {
+    parallel_for(std::min(groups, chunks - done), 0, [&](std::int64_t group) {
+      Canvas& canvas = canvases[static_cast<std::size_t>(group)];
+      const std::int64_t chunk = done + group, left = points - chunk * points_per_chunk;
+      const std::int64_t wanted = std::min(left, points_per_chunk);
+      constexpr auto orbits = static_cast<std::int64_t>(orbit_count);
+      std::array<Colours::Shares, orbit_count> addresses{};
+      walk<d>(maps, start, seed, chunk, (wanted + orbits - 1) / orbits, watch,
+              [&](std::int64_t step, std::size_t orbit, const auto& x, int letter) {
+                colours.extend(addresses[orbit], letter);
+                const std::int64_t place = (step - start.steps) * orbits + static_cast<std::int64_t>(orbit);
+                if (place >= 0 && place < wanted) canvas.see(colours.number(addresses[orbit], letter), x);
+              });
+    });
+    watch.report(static_cast<double>(std::min(done + groups, chunks)) / static_cast<double>(chunks), "points");
+  }
+  for (std::size_t k = 1; k < canvases.size(); ++k) canvases[0].add(canvases[k]);
+  watch.finish();
+  return std::move(canvases[0]);
+}
+
+// The light of all points of a pixel, added up.
+class LightSums {
+ public:
+  LightSums(const Window& window, const Colours& colours)
+      : grid_(window), colours_(&colours), sums_(static_cast<std::size_t>(window.pixels()) + 1) {}
+
+  void see(std::uint32_t number, const std::array<double, 2>& x) {
+    Sum& sum = sums_[static_cast<std::size_t>(grid_.pixel(x[0], x[1]))];
+    const Light& light = colours_->light(number);
+    ++sum.count;
+    for (std::size_t k = 0; k < 3; ++k) sum.light[k] += light[k];
+  }
+
+  void add(const LightSums& other) {
+    for (std::size_t p = 0; p < sums_.size(); ++p) {
+      sums_[p].count += other.sums_[p].count;
+      for (std::size_t k = 0; k < 3; ++k) sums_[p].light[k] += other.sums_[p].light[k];
+    }
+  }
+
+  // Mean colours; where points are few, fainter: as light as the palettes begin.
+  Portrait portrait() const {
+    Portrait made;
+    const std::size_t pixels = sums_.size() - 1;
+    std::vector<std::uint32_t> counts(pixels);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      counts[p] = static_cast<std::uint32_t>(
+          std::min<std::uint64_t>(sums_[p].count, std::numeric_limits<std::uint32_t>::max()));
+      made.inside += static_cast<std::int64_t>(sums_[p].count);
+      made.met += sums_[p].count > 0 ? 1 : 0;
+    }
+    const Density density(counts);
+    made.pixels.resize(pixels);
+    for (std::size_t p = 0; p < pixels; ++p) {
+      if (counts[p] == 0) continue;
+      constexpr double faintest = .6;
+      const double solid = faintest + (1 - faintest) * density(counts[p]);
+      std::array<double, 3> light{};
+      for (std::size_t k = 0; k < 3; ++k)
+        light[k] = 1 - solid * (1 - static_cast<double>(sums_[p].light[k]) / static_cast<double>(sums_[p].count) / full_light);
+      made.pixels[p] = {colour_of(light), 255};
+    }
+    return made;
+  }
+
+ private:
+  struct Sum {
+    std::uint64_t count = 0;
+    std::array<std::uint64_t, 3> light{};
+  };
+
+  Grid grid_;
+  const Colours* colours_;
+  std::vector<Sum> sums_;  // one more for what lies outside
+};
+
+// The nearest point of each pixel: farness above its colour's number, so that the smallest is kept, whatever the order.
+class Nearest {
+ public:
+  Nearest(const Window& window, const View& view)
+      : grid_(window), view_(view), seen_(static_cast<std::size_t>(window.pixels()) + 1, nothing) {}
+
+  void see(std::uint32_t number, const std::array<double, 3>& x) {
+    const View::Seen seen = view_(x[0], x[1], x[2]);
+    if (!seen.visible) return;
+    const std::int64_t pixel = grid_.pixel(seen.x, seen.y);
+    inside_ += pixel < static_cast<std::int64_t>(seen_.size()) - 1 ? 1 : 0;
+    const double farness = std::clamp(1 - seen.nearness, 0.0, 1.0) * farthest;
+    const std::uint64_t key = static_cast<std::uint64_t>(farness) << 32 | number;
+    std::uint64_t& kept = seen_[static_cast<std::size_t>(pixel)];
+    kept = std::min(kept, key);
+  }
+
+  void add(const Nearest& other) {
+    inside_ += other.inside_;
+    for (std::size_t p = 0; p < seen_.size(); ++p) seen_[p] = std::min(seen_[p], other.seen_[p]);
+  }
+
+  Portrait portrait(const Colours& colours, const Look& look) const {
+    Portrait made;
+    made.inside = inside_;
+    std::vector<float> nearness(seen_.size() - 1, 0);
+    made.pixels.resize(nearness.size());
+    for (std::size_t p = 0; p < nearness.size(); ++p) {
+      if (seen_[p] == nothing) continue;
+      ++made.met;
+      nearness[p] = static_cast<float>(1 - static_cast<double>(seen_[p] >> 32) / farthest);
+      const auto number = static_cast<std::uint32_t>(seen_[p]);
+      made.pixels[p] = {look.colouring == Colouring::tone ? look.palette->at(1 - nearness[p]) : colours.colour(number), 255};
+    }
+    shade(made.pixels, nearness, grid_.width, grid_.height, look.colouring != Colouring::tone);
+    return made;
+  }
+
+ private:
+  static constexpr std::uint64_t nothing = std::numeric_limits<std::uint64_t>::max();
+  static constexpr double farthest = 0x1p32 - 2;
+
+  Grid grid_;
+  View view_;
+  std::int64_t inside_ = 0;
+  std::vector<std::uint64_t> seen_;  // one more for what lies outside
+};
+
+void require_points(std::int64_t points) { in_range(points, 1, std::int64_t{1} << 50, "points"); }
+
+}  // namespace
+
+Portrait plane_portrait(const System& system, const Window& window, const Look& look, std::uint64_t seed,
+                        std::int64_t points, Watch& watch) {
+  require_plane(system);
+  require_window(window);
+  if (look.colouring == Colouring::tone) {
+    const Counts counts = chaos_counts(system, window, seed, points, watch);
+    const auto met = std::count_if(counts.pixels.begin(), counts.pixels.end(), [](std::uint32_t c) { return c > 0; });
+    return {density_picture(counts.pixels, *look.palette), counts.inside, met};
+  }
+  static_cast<void>(system.enclosure());  // refuses what has no attractor
+  require_points(points);
+  const Colours colours(system, look);
+  return paint<2>(system, colours, LightSums(window, colours), seed, points, watch).portrait();
+}
+
+Portrait space_portrait(const System& system, const View& view, const Window& window, const Look& look,
+                        std::uint64_t seed, std::int64_t points, Watch& watch) {
+  require_window(window);
+  in_range(system.dimension(), 3, 3, "system");
+  static_cast<void>(system.enclosure());
+  require_points(points);
+  const Colours colours(system, look);
+  return paint<3>(system, colours, Nearest(window, view), seed, points, watch).portrait(colours, look);
+}
+
+}  // namespace ifsm::core
