@@ -24,7 +24,7 @@ sanitize: ## all tests under address and undefined-behaviour sanitizers, the thr
 	@scripts/sanitize asan
 	@scripts/sanitize tsan
 
-fuzz: ## feed the model reader for a minute (seconds=60)
+fuzz: ## feed each reader any bytes for a minute (seconds=60)
 	@scripts/fuzz $(or $(seconds),60)
 
 abi: release ## compare the library with tests/abi: exported symbols, types
