@@ -1,9 +1,11 @@
 #include "raster/chaos.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <string>
 #include <thread>
 
@@ -42,80 +44,117 @@ void require_plane(const System& system) {
 
 namespace {
 
-// Plain double precision.
-void run(Orbits<double>& orbits, const Coefficients<double>& maps, const Window& window, std::int64_t steps,
-         const Tally* tally) {
-  const Grid grid(window);
-  for (std::int64_t step = 0; step < steps; ++step)
-    for (std::size_t orbit = 0; orbit < orbit_count; ++orbit) {
-      maps.step(orbits.random.next(orbit), orbits.x[orbit], orbits.y[orbit]);
-      if (tally != nullptr) tally->count(grid.pixel(orbits.x[orbit], orbits.y[orbit]));
-    }
-}
-
-// One chunk's points, the last few of them perhaps of some orbits alone.
 template <class Real>
-class Game {
- public:
-  Game(const System& system, const Window& window, std::uint64_t seed, std::int64_t points)
-      : maps_(system), window_(window), seed_(seed), points_(points), start_(system) {}
+struct Game {
+  Game(const System& system, const Window& in, std::uint64_t seeded, std::int64_t count)
+      : maps(system), window(in), seed(seeded), points(count), start(system) {}
 
-  std::int64_t chunks() const { return (points_ + points_per_chunk - 1) / points_per_chunk; }
+  std::int64_t chunks() const { return (points + points_per_chunk - 1) / points_per_chunk; }
+  Orbits<Real> orbits(std::int64_t chunk) const { return {seed, static_cast<std::uint64_t>(chunk), start.point}; }
 
-  // Of points outside, how many.
-  std::int64_t play(std::int64_t chunk, Histogram& histogram) const {
-    const Tally tally = histogram.tally();
-    Orbits<Real> orbits(seed_, static_cast<std::uint64_t>(chunk), start_.point);
-    run(orbits, maps_, window_, start_.steps, nullptr);
-    const std::int64_t points = std::min(points_per_chunk, points_ - chunk * points_per_chunk);
-    constexpr auto side_by_side = static_cast<std::int64_t>(orbit_count);
-    run(orbits, maps_, window_, points / side_by_side, &tally);
-    for (std::size_t orbit = 0; orbit < static_cast<std::size_t>(points % side_by_side); ++orbit) {
-      maps_.step(orbits.random.next(orbit), orbits.x[orbit], orbits.y[orbit]);
-      tally.count(Grid(window_).pixel(static_cast<double>(orbits.x[orbit]), static_cast<double>(orbits.y[orbit])));
-    }
-    return histogram.take_outside();
+  // A chunk's points: so many steps of all orbits, and one more of the first few.
+  std::int64_t points_of(std::int64_t chunk) const {
+    return std::min(points_per_chunk, points - chunk * points_per_chunk);
+  }
+  std::int64_t steps(std::int64_t chunk) const { return points_of(chunk) / side_by_side; }
+  std::size_t rest(std::int64_t chunk) const { return static_cast<std::size_t>(points_of(chunk) % side_by_side); }
+
+  // The pixel of an orbit's next point.
+  std::int64_t next(Orbits<Real>& orbits, std::size_t orbit) const {
+    maps.step(orbits.random.next(orbit), orbits.x[orbit], orbits.y[orbit]);
+    return Grid(window).pixel(static_cast<double>(orbits.x[orbit]), static_cast<double>(orbits.y[orbit]));
   }
 
+  Coefficients<Real> maps;
+  Window window;
+  std::uint64_t seed;
+  std::int64_t points;
+  Start start;
+
  private:
-  Coefficients<Real> maps_;
-  Window window_;
-  std::uint64_t seed_;
-  std::int64_t points_;
-  Start start_;
+  static constexpr auto side_by_side = static_cast<std::int64_t>(orbit_count);
 };
+
+// Plays a chunk, and tells how many of its points are inside.
+std::int64_t play(const Game<float>& game, std::int64_t chunk, Histogram& histogram) {
+  const Tally tally = histogram.tally();
+  Orbits<float> orbits = game.orbits(chunk);
+  run(orbits, game.maps, game.window, game.start.steps, nullptr);
+  run(orbits, game.maps, game.window, game.steps(chunk), &tally);
+  for (std::size_t orbit = 0; orbit < game.rest(chunk); ++orbit) tally.count(game.next(orbits, orbit));
+  return game.points_of(chunk) - histogram.take_outside();
+}
+
+// Plain double precision.
+std::int64_t play_plain(const Game<double>& game, std::int64_t chunk, Histogram& histogram) {
+  const Tally tally = histogram.tally();
+  Orbits<double> orbits = game.orbits(chunk);
+  for (std::int64_t step = 0; step < game.start.steps; ++step)
+    for (std::size_t orbit = 0; orbit < orbit_count; ++orbit) game.next(orbits, orbit);
+  for (std::int64_t step = 0; step < game.steps(chunk); ++step)
+    for (std::size_t orbit = 0; orbit < orbit_count; ++orbit) tally.count(game.next(orbits, orbit));
+  for (std::size_t orbit = 0; orbit < game.rest(chunk); ++orbit) tally.count(game.next(orbits, orbit));
+  return game.points_of(chunk) - histogram.take_outside();
+}
+
+// Tells the pixels of the points that are inside, as many at once as `room` holds before what is beyond them.
+template <class Take>
+std::int64_t play(const Game<double>& game, std::int64_t chunk, std::span<std::int32_t> room, const Take& take) {
+  const auto at_once = static_cast<std::int64_t>((room.size() - beyond_pixels) / orbit_count);
+  Orbits<double> orbits = game.orbits(chunk);
+  run(orbits, game.maps, game.window, game.start.steps, nullptr);
+  std::int64_t inside = 0;
+  const std::int64_t steps = game.steps(chunk);
+  for (std::int64_t step = 0; step <= steps; step += at_once) {
+    const std::int64_t now = std::min(at_once, steps - step);
+    std::size_t count = run(orbits, game.maps, game.window, now, room.data());
+    for (std::size_t orbit = 0; now < at_once && orbit < game.rest(chunk); ++orbit) {
+      const std::int64_t pixel = game.next(orbits, orbit);
+      if (pixel != game.window.pixels()) room[count++] = static_cast<std::int32_t>(pixel);
+    }
+    if (count > 0) take(room.first(count));
+    inside += static_cast<std::int64_t>(count);
+  }
+  return inside;
+}
+
+// Of all histograms together, below which memory is no matter: 80 MB.
+constexpr std::int64_t small_pixels = 1 << 24;
+
+std::int64_t most_groups() { return std::max(std::int64_t{std::thread::hardware_concurrency()}, std::int64_t{1}); }
 
 // Histograms that are filled side by side, added up at the end: as many as there are threads, but a single one where
 // more would take more memory than the counts themselves by a quarter.
 std::int64_t histograms_of(const Window& window) {
-  constexpr std::int64_t small = 1 << 24;  // pixels of all together, below which memory is no matter: 80 MB
-  const auto threads = static_cast<std::int64_t>(std::thread::hardware_concurrency());
-  return std::clamp(small / window.pixels(), std::int64_t{1}, std::max(threads, std::int64_t{1}));
+  return std::clamp(small_pixels / window.pixels(), std::int64_t{1}, most_groups());
 }
 
-template <class Real>
-Counts play(const System& system, const Window& window, std::uint64_t seed, std::int64_t points, Watch& watch) {
-  require_plane(system);
-  require_window(window);
-  static_cast<void>(system.enclosure());  // refuses what has no attractor
-  in_range(points, 1, std::int64_t{1} << 50, "points");
-  const Game<Real> game(system, window, seed, points);
+// play(chunk, histogram) tells how many points are inside.
+template <class Real, class Play>
+Counts in_histograms(const Game<Real>& game, Watch& watch, const Play& play) {
   std::vector<Histogram> histograms;
-  for (std::int64_t k = 0; k < histograms_of(window); ++k) histograms.emplace_back(window.pixels());
+  for (std::int64_t k = 0; k < histograms_of(game.window); ++k) histograms.emplace_back(game.window.pixels());
   const auto groups = static_cast<std::int64_t>(histograms.size());
-  std::vector<std::int64_t> outside(histograms.size(), 0);
+  std::vector<std::int64_t> inside(histograms.size(), 0);
   // Rounds of chunks, between which progress is told. Sums do not depend on who counted what.
   for (std::int64_t done = 0; done < game.chunks(); done += groups) {
     parallel_for(std::min(groups, game.chunks() - done), 0, [&](std::int64_t group) {
       watch.poll();
       const auto g = static_cast<std::size_t>(group);
-      outside[g] += game.play(done + group, histograms[g]);
+      inside[g] += play(done + group, histograms[g]);
     });
     watch.report(static_cast<double>(done) / static_cast<double>(game.chunks()), "points");
   }
   for (std::size_t g = 1; g < histograms.size(); ++g) histograms[0].add(histograms[g]);
   watch.finish();
-  return {histograms[0].take(), points - std::accumulate(outside.begin(), outside.end(), std::int64_t{0})};
+  return {histograms[0].take(), std::accumulate(inside.begin(), inside.end(), std::int64_t{0})};
+}
+
+void require(const System& system, const Window& window, std::int64_t points) {
+  require_plane(system);
+  require_window(window);
+  static_cast<void>(system.enclosure());  // refuses what has no attractor
+  in_range(points, 1, std::int64_t{1} << 50, "points");
 }
 
 }  // namespace
@@ -150,15 +189,23 @@ bool single_precision_suffices(const System& system, const Window& window) {
 }
 
 Counts chaos_counts(const System& system, const Window& window, std::uint64_t seed, std::int64_t points, Watch& watch) {
-  require_plane(system);
-  require_window(window);
-  if (single_precision_suffices(system, window)) return play<float>(system, window, seed, points, watch);
-  return play<double>(system, window, seed, points, watch);
+  require(system, window, points);
+  if (single_precision_suffices(system, window)) {
+    const Game<float> game(system, window, seed, points);
+    return in_histograms(game, watch, [&](std::int64_t chunk, Histogram& all) { return play(game, chunk, all); });
+  }
+  const Game<double> game(system, window, seed, points);
+  return in_histograms(game, watch, [&](std::int64_t chunk, Histogram& all) {
+    std::array<std::int32_t, Histogram::most_at_once + beyond_pixels> room;
+    return play(game, chunk, room, [&](std::span<const std::int32_t> pixels) { all.count(pixels); });
+  });
 }
 
 Counts plain::chaos_counts(const System& system, const Window& window, std::uint64_t seed, std::int64_t points) {
+  require(system, window, points);
+  const Game<double> game(system, window, seed, points);
   Watch watch;
-  return play<double>(system, window, seed, points, watch);
+  return in_histograms(game, watch, [&](std::int64_t chunk, Histogram& all) { return play_plain(game, chunk, all); });
 }
 
 }  // namespace ifsm::core

@@ -1,5 +1,6 @@
 #include "raster/histogram.h"
 
+#include <array>
 #include <utility>
 
 namespace ifsm::core {
@@ -13,6 +14,17 @@ std::uint32_t sum(std::uint32_t a, std::uint32_t b) { return a > full - b ? full
 
 Histogram::Histogram(std::int64_t pixels)
     : low_(static_cast<std::size_t>(pixels) + 1), high_(static_cast<std::size_t>(pixels) + 1) {}
+
+void Histogram::count(std::span<const std::int32_t> pixels) {
+  const Tally tally = this->tally();
+  std::array<std::int32_t, most_at_once> full;
+  std::size_t carries = 0;
+  for (const std::int32_t pixel : pixels) {
+    full[carries] = pixel;
+    carries += tally.fills(pixel) ? 1 : 0;
+  }
+  for (std::size_t k = 0; k < carries; ++k) tally.carry(full[k]);
+}
 
 std::uint32_t Histogram::count(std::size_t pixel) const { return sum(high_[pixel], low_[pixel]); }
 

@@ -34,6 +34,10 @@ class Histogram {
 
   Tally tally() { return {low_.data(), high_.data()}; }
 
+  // Numbers of pixels; few enough that those of full bytes fit the stack.
+  static constexpr std::size_t most_at_once = 1 << 12;
+  void count(std::span<const std::int32_t> pixels);
+
   // How often something was counted outside since it was last asked; fewer than 2^32 times.
   std::int64_t take_outside();
 

@@ -73,4 +73,10 @@ struct Start {
 void run(Orbits<float>& orbits, const Coefficients<float>& maps, const Window& window, std::int64_t steps,
          const Tally* tally);
 
+// `steps` steps of all orbits, of the same points as Coefficients::step's. Tells the pixels of those in the window,
+// step by step, and how many; `pixels` has room for all points and `beyond_pixels` more. Null: steps alone.
+constexpr std::size_t beyond_pixels = 16;
+std::size_t run(Orbits<double>& orbits, const Coefficients<double>& maps, const Window& window, std::int64_t steps,
+                std::int32_t* pixels);
+
 }  // namespace ifsm::core

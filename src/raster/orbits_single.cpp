@@ -8,56 +8,15 @@
 #include <bit>
 #include <cstdint>
 
+#include "raster/lanes-inl.h"
 #include "raster/orbits.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ifsm::core {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
 const hn::CappedTag<float, 16> reals;
-const hn::RebindToSigned<decltype(reals)> integers;
-const hn::RebindToUnsigned<decltype(reals)> words;
 using Reals = hn::Vec<decltype(reals)>;
-using Integers = hn::Vec<decltype(integers)>;
-using Words = hn::Vec<decltype(words)>;
-constexpr std::size_t width = hn::MaxLanes(decltype(reals)());
-
-// A table that an index is looked up in, lane by lane. In one register, in two, or in memory.
-enum class Held { one, two, memory };
-
-template <class Tag, Held held>
-class Table {
- public:
-  using Number = hn::TFromD<Tag>;
-  using Vector = hn::Vec<Tag>;
-
-  // As many entries as slots, a power of two.
-  explicit Table(const std::vector<Number>& entries) : memory_(entries.data()) {
-    if constexpr (held != Held::memory) {
-      HWY_ALIGN Number filled[2 * width];
-      for (std::size_t k = 0; k < 2 * width; ++k) filled[k] = entries[k % entries.size()];
-      low_ = hn::Load(Tag(), filled);
-      high_ = hn::Load(Tag(), filled + width);
-    }
-  }
-
-  HWY_INLINE Vector operator()(const Integers index) const {
-    const Tag tag;
-    if constexpr (held == Held::memory) return hn::GatherIndex(tag, memory_, index);
-    if constexpr (held == Held::one) return hn::TableLookupLanes(low_, hn::IndicesFromVec(tag, index));
-    const auto within =
-        hn::IndicesFromVec(tag, hn::And(index, hn::Set(integers, static_cast<std::int32_t>(width) - 1)));
-    const auto above = hn::Gt(index, hn::Set(integers, static_cast<std::int32_t>(width) - 1));
-    return hn::IfThenElse(hn::RebindMask(tag, above), hn::TableLookupLanes(high_, within),
-                          hn::TableLookupLanes(low_, within));
-  }
-
- private:
-  const Number* memory_;
-  Vector low_{}, high_{};
-};
 
 // The pixel of each lane's point. Single precision may see a point on the wrong side of a pixel's edge; those near one
 // are seen again in double, which tells points that are *on* an edge as plain::chaos_counts does.
@@ -128,21 +87,13 @@ template <Held held>
 class Steps {
  public:
   explicit Steps(const Coefficients<float>& m)
-      : bits_(m.choice.bits()),
-        share_(m.choice.share()),
-        other_(m.choice.other()),
-        a_(m.a),
-        b_(m.b),
-        c_(m.c),
-        d_(m.d),
-        e_(m.e),
-        f_(m.f) {}
+      : draw_(m.choice), a_(m.a), b_(m.b), c_(m.c), d_(m.d), e_(m.e), f_(m.f) {}
 
   // One step of all orbits; tell(orbit, x, y) of each vector of them.
   template <class Tell>
   HWY_INLINE void operator()(Orbits<float>& o, const Tell& tell) const {
     for (std::size_t orbit = 0; orbit < orbit_count; orbit += width) {
-      const Integers map = chosen(next(o.random, orbit));
+      const Integers map = draw_(o.random, orbit);
       const Reals x = hn::Load(reals, &o.x[orbit]), y = hn::Load(reals, &o.y[orbit]);
       const Reals next_x = hn::Add(hn::Add(hn::Mul(a_(map), x), hn::Mul(b_(map), y)), e_(map));
       const Reals next_y = hn::Add(hn::Add(hn::Mul(c_(map), x), hn::Mul(d_(map), y)), f_(map));
@@ -153,24 +104,7 @@ class Steps {
   }
 
  private:
-  HWY_INLINE Words next(RandomWords& r, std::size_t orbit) const {
-    const Words a = hn::Load(words, &r.a[orbit]), b = hn::Load(words, &r.b[orbit]), c = hn::Load(words, &r.c[orbit]);
-    const Words counter = hn::Load(words, &r.counter[orbit]);
-    const Words word = hn::Add(hn::Add(a, b), counter);
-    hn::Store(hn::Add(counter, hn::Set(words, 1)), words, &r.counter[orbit]);
-    hn::Store(hn::Xor(b, hn::ShiftRight<9>(b)), words, &r.a[orbit]);
-    hn::Store(hn::Add(c, hn::ShiftLeft<3>(c)), words, &r.b[orbit]);
-    hn::Store(hn::Add(hn::RotateRight<11>(c), word), words, &r.c[orbit]);
-    return word;
-  }
-  HWY_INLINE Integers chosen(const Words random) const {
-    const Integers slot = hn::BitCast(integers, hn::ShiftRightSame(random, 32 - bits_));
-    const Integers rest = hn::BitCast(integers, hn::ShiftRight<1>(hn::ShiftLeftSame(random, bits_)));
-    return hn::IfThenElse(hn::Lt(rest, share_(slot)), slot, other_(slot));
-  }
-
-  int bits_;
-  Table<decltype(integers), held> share_, other_;
+  Draw<held> draw_;
   Table<decltype(reals), held> a_, b_, c_, d_, e_, f_;
 };
 

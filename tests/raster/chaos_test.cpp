@@ -174,6 +174,46 @@ TEST(ChaosGame, TakesDoublesWherePixelsAreFiner) {
   EXPECT_EQ(counted(*fern, part, 1, million).pixels, plain::chaos_counts(*fern, part, 1, million).pixels);
 }
 
+TEST(ChaosGame, CountsInDoublePrecisionAsThePlainLoopOnEveryVectorTarget) {
+  Random random(9);
+  std::vector<Affine> many;
+  for (int k = 0; k < 37; ++k) many.push_back(similar(.1, .05 * (k % 5), .03 * k, .01 * k * k));
+  // Tables of 2, 4, 8, 16 and 64 slots; windows around the attractor, a part of it, all on an edge, none of it.
+  std::vector<System> systems;
+  for (const std::ptrdiff_t maps : {2, 3, 7, 13, 37})
+    systems.emplace_back(2, std::vector<Affine>(many.begin(), many.begin() + maps));
+  systems.push_back(*named_system("fern"));
+  systems.push_back(*named_system("cantor_set"));
+  constexpr std::int64_t points = million / 4 + 77;
+  std::vector<std::pair<const System*, Window>> cases;
+  for (const System& system : systems) {
+    const Window whole = around(system, 2500, 400);
+    const double width = whole.right - whole.left, height = std::max(whole.top - whole.bottom, 1.0);
+    const Window part{whole.left + .3 * width,
+                      whole.bottom + .2 * height,
+                      whole.left + .31 * width,
+                      whole.bottom + .3 * height,
+                      500,
+                      400};
+    for (const Window& window : {Window{whole.left, whole.bottom - 1e-3, whole.right, whole.top + 1e-3, 2500, 400},
+                                 part, Window{-1, -1e9, 1e-9, 0, 1000, 1000},
+                                 Window{whole.right + 1, whole.bottom, whole.right + 2, whole.bottom + 1, 3000, 10}})
+      if (!single_precision_suffices(system, window)) cases.emplace_back(&system, window);
+  }
+  ASSERT_GE(cases.size(), 14);
+  std::vector<Counts> plain;
+  for (const auto& [system, window] : cases) plain.push_back(plain::chaos_counts(*system, window, 3, points));
+  for (std::int64_t every = hwy::SupportedTargets(); every != 0; every &= every - 1) {
+    hwy::SetSupportedTargetsForTest(every & -every);
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      const Counts fast = counted(*cases[k].first, cases[k].second, 3, points);
+      EXPECT_EQ(fast.inside, plain[k].inside) << k << hwy::TargetName(every & -every);
+      EXPECT_TRUE(fast.pixels == plain[k].pixels) << k << hwy::TargetName(every & -every);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
 TEST(ChaosGame, SaysThatAWindowMissesTheAttractor) {
   const Counts counts = counted(*named_system("fern"), {100, 100, 101, 101, 10, 10}, 1, 1000);
   EXPECT_EQ(counts.inside, 0);
