@@ -8,9 +8,11 @@
 #include <span>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "raster/bands.h"
 #include "raster/histogram.h"
 #include "raster/orbits.h"
 #include "system/reach.h"
@@ -150,6 +152,46 @@ Counts in_histograms(const Game<Real>& game, Watch& watch, const Play& play) {
   return {histograms[0].take(), std::accumulate(inside.begin(), inside.end(), std::int64_t{0})};
 }
 
+// All pages of large memory are asked for here, which may take seconds: not without a poll.
+std::vector<std::uint32_t> zeros(std::int64_t pixels, const Watch& watch) {
+  constexpr std::size_t at_once = 1 << 24;
+  const auto size = static_cast<std::size_t>(pixels);
+  std::vector<std::uint32_t> counts;
+  counts.reserve(size);
+  while (counts.size() < size) {
+    watch.poll();
+    counts.resize(std::min(counts.size() + at_once, size));
+  }
+  return counts;
+}
+
+// Rounds of chunks are sorted, and then added.
+Counts in_bands(const Game<double>& game, Watch& watch) {
+  constexpr std::int64_t pieces = points_per_chunk / Bands::piece;  // a chunk
+  Bands bands(zeros(game.window.pixels(), watch), pieces * game.chunks(), most_groups());
+  const std::int64_t round = bands.slots() / pieces;
+  std::vector<std::int64_t> inside(static_cast<std::size_t>(bands.groups()), 0);
+  const auto fraction = [&](double chunks) { return chunks / static_cast<double>(game.chunks()); };
+  for (std::int64_t done = 0; done < game.chunks(); done += round) {
+    const std::int64_t chunks = std::min(round, game.chunks() - done);
+    // Both take about as long.
+    const auto begin = static_cast<double>(done), end = begin + static_cast<double>(chunks), half = (begin + end) / 2;
+    Watch sorting = watch.part(fraction(begin), fraction(half)), adding = watch.part(fraction(half), fraction(end));
+    for (std::int64_t first = 0; first < chunks; first += bands.groups()) {
+      parallel_for(std::min(bands.groups(), chunks - first), 0, [&](std::int64_t group) {
+        watch.poll();
+        std::int64_t slot = (first + group) * pieces;
+        const auto sort = [&](std::span<const std::int32_t> pixels) { bands.sort(pixels, group, slot++); };
+        inside[static_cast<std::size_t>(group)] += play(game, done + first + group, bands.room(group), sort);
+      });
+      sorting.report(static_cast<double>(first) / static_cast<double>(chunks), "points");
+    }
+    bands.add(adding);
+  }
+  watch.finish();
+  return {std::move(bands).take(), std::accumulate(inside.begin(), inside.end(), std::int64_t{0})};
+}
+
 void require(const System& system, const Window& window, std::int64_t points) {
   require_plane(system);
   require_window(window);
@@ -190,11 +232,13 @@ bool single_precision_suffices(const System& system, const Window& window) {
 
 Counts chaos_counts(const System& system, const Window& window, std::uint64_t seed, std::int64_t points, Watch& watch) {
   require(system, window, points);
-  if (single_precision_suffices(system, window)) {
+  const bool large = window.pixels() > small_pixels / 2;  // a single histogram, so a single thread
+  if (!large && single_precision_suffices(system, window)) {
     const Game<float> game(system, window, seed, points);
     return in_histograms(game, watch, [&](std::int64_t chunk, Histogram& all) { return play(game, chunk, all); });
   }
   const Game<double> game(system, window, seed, points);
+  if (large) return in_bands(game, watch);
   return in_histograms(game, watch, [&](std::int64_t chunk, Histogram& all) {
     std::array<std::int32_t, Histogram::most_at_once + beyond_pixels> room;
     return play(game, chunk, room, [&](std::span<const std::int32_t> pixels) { all.count(pixels); });

@@ -214,6 +214,28 @@ TEST(ChaosGame, CountsInDoublePrecisionAsThePlainLoopOnEveryVectorTarget) {
   hwy::SetSupportedTargetsForTest(0);
 }
 
+TEST(ChaosGame, CountsLargeWindowsAsThePlainLoop) {
+  const auto fern = named_system("fern");
+  const Window whole = around(*fern, 1, 1);
+  struct Case {
+    std::int64_t width, height, points;
+  };
+  for (const auto& [width, height, points] : {Case{3000, 3000, 5},
+                                              {3000, 3000, million / 2 + 5},
+                                              {3000, 3000, 2 * million},
+                                              {3000, 3000, 3 * million - 63},
+                                              {32768, 300, million},
+                                              {300, 32768, million},
+                                              {4100, 4100, million}}) {
+    for (const double from : {whole.left, whole.left + 1}) {
+      const Window window{from, whole.bottom, whole.right, whole.top - 1, width, height};
+      const Counts fast = counted(*fern, window, 2, points), plain = plain::chaos_counts(*fern, window, 2, points);
+      EXPECT_EQ(fast.inside, plain.inside) << width << " " << points;
+      EXPECT_TRUE(fast.pixels == plain.pixels) << width << " " << points;
+    }
+  }
+}
+
 TEST(ChaosGame, SaysThatAWindowMissesTheAttractor) {
   const Counts counts = counted(*named_system("fern"), {100, 100, 101, 101, 10, 10}, 1, 1000);
   EXPECT_EQ(counts.inside, 0);

@@ -22,6 +22,20 @@ TEST(ChaosGame, GivesTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
+TEST(ChaosGame, GivesTheSameBitsInLargeWindowsOnAnyNumberOfThreads) {
+  const auto fern = named_system("fern");
+  const Window window = around(*fern, 4100, 4100);
+  Counts one;
+  for (const int threads : {1, 2, 3}) {
+    const Threads most(threads);
+    Counts counts = counted(*fern, window, 1, (9 << 20) + 3);
+    if (threads == 1) one = std::move(counts);
+    if (threads == 1) continue;
+    EXPECT_TRUE(counts.pixels == one.pixels) << threads;
+    EXPECT_EQ(counts.inside, one.inside) << threads;
+  }
+}
+
 TEST(ChaosPoints, AreTheSameBitsOnAnyNumberOfThreads) {
   const auto fern = named_system("fern_3d");
   ChaosPoints one;
@@ -50,14 +64,17 @@ TEST(ChaosPoints, AreCancelledAlsoWithinAChunk) {
 
 TEST(ChaosGame, IsCancelledAndTellsProgressThatGrows) {
   const auto fern = named_system("fern");
-  double last = 0;
-  Watch watch(nullptr, [&](double fraction, const char*) {
-    EXPECT_GE(fraction, last);
-    last = fraction;
-    return fraction > .5;
-  });
-  EXPECT_THROW(chaos_counts(*fern, around(*fern, 64, 64), 1, 20 << 20, watch), Cancelled);
-  EXPECT_GT(last, .5);
+  for (const std::int64_t side : {64, 3000}) {
+    double last = 0;
+    Watch watch(nullptr, [&](double fraction, const char*) {
+      EXPECT_GE(fraction, last);
+      last = fraction;
+      return fraction > .5;
+    });
+    EXPECT_THROW(chaos_counts(*fern, around(*fern, side, side), 1, 40 << 20, watch), Cancelled);
+    EXPECT_GT(last, .5);
+    EXPECT_LT(last, 1) << side;
+  }
 }
 
 }  // namespace
