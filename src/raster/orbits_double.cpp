@@ -66,8 +66,9 @@ class Steps {
   }
 
  private:
-  // Two registers of doubles hold what one of their halves' size does.
-  Draw<held == Held::memory ? Held::memory : Held::one> draw_;
+  // One register of numbers half as large holds as much as two of doubles.
+  static constexpr bool halved = held == Held::two && width >= 2 * real_width;
+  Draw<halved ? Held::one : held> draw_;
   Table<decltype(reals), held> a_, b_, c_, d_, e_, f_;
 };
 
