@@ -17,13 +17,13 @@ Histogram::Histogram(std::int64_t pixels)
 
 void Histogram::count(std::span<const std::int32_t> pixels) {
   const Tally tally = this->tally();
-  std::array<std::int32_t, most_at_once> full;
+  std::array<std::int32_t, most_at_once> filled;
   std::size_t carries = 0;
   for (const std::int32_t pixel : pixels) {
-    full[carries] = pixel;
+    filled[carries] = pixel;
     carries += tally.fills(pixel) ? 1 : 0;
   }
-  for (std::size_t k = 0; k < carries; ++k) tally.carry(full[k]);
+  for (std::size_t k = 0; k < carries; ++k) tally.carry(filled[k]);
 }
 
 std::uint32_t Histogram::count(std::size_t pixel) const { return sum(high_[pixel], low_[pixel]); }

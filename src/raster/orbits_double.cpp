@@ -29,11 +29,11 @@ class Pixels {
   HWY_INLINE std::size_t operator()(const Reals x, const Reals y, std::int32_t* pixels) const {
     const Reals column = hn::Mul(hn::Sub(x, hn::Set(reals, grid_.left)), hn::Set(reals, grid_.columns_per_unit));
     const Reals row = hn::Mul(hn::Sub(hn::Set(reals, grid_.top), y), hn::Set(reals, grid_.rows_per_unit));
-    const Reals width = hn::Set(reals, static_cast<double>(grid_.width)),
-                height = hn::Set(reals, static_cast<double>(grid_.height)), zero = hn::Zero(reals);
+    const Reals columns = hn::Set(reals, static_cast<double>(grid_.width)),
+                rows = hn::Set(reals, static_cast<double>(grid_.height)), zero = hn::Zero(reals);
     const auto inside =
-        hn::And(hn::And(hn::Ge(column, zero), hn::Lt(column, width)), hn::And(hn::Ge(row, zero), hn::Lt(row, height)));
-    const Reals pixel = hn::Add(hn::Mul(hn::Floor(row), width), hn::Floor(column));
+        hn::And(hn::And(hn::Ge(column, zero), hn::Lt(column, columns)), hn::And(hn::Ge(row, zero), hn::Lt(row, rows)));
+    const Reals pixel = hn::Add(hn::Mul(hn::Floor(row), columns), hn::Floor(column));
     const auto number = hn::DemoteTo(halves, hn::IfThenElse(inside, pixel, hn::Set(reals, -1)));
     return hn::CompressStore(number, hn::Gt(number, hn::Set(halves, -1)), halves, pixels);
   }
