@@ -1561,6 +1561,155 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_load(const uint8_t *bytes, int64_
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_file_names(const uint8_t *bytes, int64_t byte_count, uint8_t *names,
                                                           int64_t capacity, int64_t *count);
 
+/* ------------------------------------------------------------------------------------------------------------------
+ * Pictures of systems: into the caller's arrays, row by row, row 0 on top
+ *
+ * A pixel owns its left and its upper edge. Asked for the count alone (NULL, 0), nothing is drawn, and the report tells the
+ * size and the window only. The same options give the same bits on any number of threads and on any machine.
+ * ------------------------------------------------------------------------------------------------------------------ */
+
+/* What ifsm_system_render shows. */
+enum {
+  IFSM_COLOUR_TONE = 0,    /* plane: how dense the measure is, on a logarithmic scale; space: how near it is */
+  IFSM_COLOUR_SYMBOL = 1,  /* the map whose piece it is: the first symbol of addresses */
+  IFSM_COLOUR_ADDRESS = 2, /* the share of the measure that has smaller addresses; of so many `symbols` */
+  IFSM_COLOUR_SET = 3,     /* plane: pixels that the attractor meets, those that cannot be decided half so */
+  IFSM_COLOUR_DISTANCE = 4 /* plane: how far it is, over the palette from dark (near) to light, on a logarithmic scale */
+};
+
+/* From light to dark, by lightness alone: fit for grey print and for the colour-blind. */
+enum {
+  IFSM_PALETTE_DUSK = 0,
+  IFSM_PALETTE_SEA = 1,
+  IFSM_PALETTE_FERN = 2,
+  IFSM_PALETTE_EMBER = 3,
+  IFSM_PALETTE_INK = 4
+};
+
+typedef struct ifsm_picture_options {
+  uint32_t struct_size;
+  int32_t width;  /* pixels, 1 … 32768; 0: 1024 */
+  int32_t height; /* 0: as wide */
+  int32_t threads; /* at most so many; 0: as ifsm_set_threads says */
+  double left;    /* the window, in the system's units; of space, in the plane through the middle of its ball, whose */
+  double bottom;  /* centre is (0, 0). All four 0: around the attractor */
+  double right;
+  double top;
+  uint64_t seed;   /* other seeds, other points */
+  int64_t points;  /* how many the chaos game plays; 0: 16 a pixel that is computed, in space 32; ifsm_system_sample: 65536 */
+  double tolerance; /* of sets and distances, in pixels, up to 1; 0: 1/64 of sets, 1/8 of distances */
+  int32_t colour;   /* IFSM_COLOUR_… */
+  int32_t palette;  /* IFSM_PALETTE_… */
+  const uint8_t *stops; /* borrowed: red, green, blue of colours equally far apart, instead of the palette; may be NULL */
+  int64_t stop_count;   /* bytes: three a colour, 1 … 256 colours; 0 without */
+  int32_t symbols;      /* of addresses, 1 … 16; 0: all */
+  int32_t oversample;   /* pixels computed for each one, along both sides, 1 … 8; 0: 2, or 1 above 4096 pixels a side */
+  uint32_t background;  /* red, green, blue, alpha from the high byte to the low one; 0: transparent */
+  int32_t reserved;     /* 0 */
+  double azimuth;       /* space: where the eye is, radians from the x axis to the y axis, and above the xy plane; */
+  double elevation;
+  double field;         /* the angle of view, 0 … 3: so far away is the eye that the ball fills it; 0: infinitely far */
+  ifsm_cancel cancel;   /* borrowed; {0} for none */
+  ifsm_progress_callback progress; /* may be NULL */
+  void *user;                      /* handed to `progress` */
+} ifsm_picture_options;
+
+/* Sets struct_size to `size` and everything else to zero, which is the default. Errors: NULL, OPTIONS. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_picture_options_init(ifsm_picture_options *options, uint32_t size);
+
+typedef struct ifsm_picture_report {
+  uint32_t struct_size;
+  int32_t width; /* pixels */
+  int32_t height;
+  int32_t reserved;
+  double left; /* the window */
+  double bottom;
+  double right;
+  double top;
+  int64_t points;    /* that the chaos game played; 0 where it did not */
+  int64_t inside;    /* those in the window: 0 tells that the window misses the attractor */
+  int64_t met;       /* pixels that were hit, or are met for certain; where it was oversampled, of those computed */
+  int64_t undecided; /* of a set: pixels to whose edge it comes within the tolerance, and none was found inside */
+} ifsm_picture_report;
+
+/* How often the chaos game hits each pixel: points of the measure, drawn at random.
+ *
+ * options   borrowed; NULL for defaults. Size, window, threads, seed, points count
+ * report    [out] with struct_size set
+ * counts    [out] width × height counts, which stay at 2^32 - 1
+ *
+ * Memory: a quarter more than the counts'. Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, SHAPE (not in the plane),
+ * NUMERICAL, OPTIONS, CAPACITY, CANCELLED, MEMORY. Any thread; the callback runs on this one. Source: M. Barnsley, Fractals
+ * Everywhere, 1988; docs/systems.md. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_histogram(ifsm_system system, const ifsm_picture_options *options,
+                                                         ifsm_picture_report *report, uint32_t *counts,
+                                                         int64_t capacity, int64_t *count);
+
+/* What a set's pixels are. */
+enum { IFSM_PIXEL_EMPTY = 0, IFSM_PIXEL_UNDECIDED = 1, IFSM_PIXEL_MET = 2 };
+
+/* Which pixels' squares the attractor meets: empty and met ones are proofs, rounding included; nothing is drawn at random.
+ *
+ * options   borrowed; NULL for defaults. Size, window, threads, tolerance count
+ * pixels    [out] width × height times IFSM_PIXEL_…
+ *
+ * Errors: as ifsm_system_histogram; RANGE also: a tolerance that rounding does not leave. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_set(ifsm_system system, const ifsm_picture_options *options,
+                                                   ifsm_picture_report *report, uint8_t *pixels, int64_t capacity,
+                                                   int64_t *count);
+
+/* How far the middle of each pixel is from the attractor, wherever that is: not below, and above by at most the tolerance.
+ *
+ * options     borrowed; NULL for defaults. Size, window, threads, tolerance count
+ * distances   [out] width × height doubles, in the system's units
+ *
+ * Some microseconds a pixel. Errors: as ifsm_system_set. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_distances(ifsm_system system, const ifsm_picture_options *options,
+                                                         ifsm_picture_report *report, double *distances,
+                                                         int64_t capacity, int64_t *count);
+
+/* A picture, of the plane or of space.
+ *
+ * options   borrowed; NULL for defaults
+ * rgba      [out] width × height × 4 bytes: red, green, blue (sRGB), alpha, which is not multiplied in
+ *
+ * Of space, the nearest point of each pixel, darker where it lies behind its surroundings: points of surfaces should be
+ * many. Memory: 5 bytes a computed pixel for densities, 36 for symbols and addresses, 12 in space, times the threads but
+ * for densities. Errors: as ifsm_system_set; SHAPE also: sets and distances of space. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_render(ifsm_system system, const ifsm_picture_options *options,
+                                                      ifsm_picture_report *report, uint8_t *rgba, int64_t capacity,
+                                                      int64_t *count);
+
+/* Colours for counts that one has, as ifsm_system_render gives them of a density.
+ *
+ * counts    borrowed: of any source
+ * options   borrowed; NULL for defaults. Palette or stops, and background count
+ * rgba      [out] 4 bytes a count
+ *
+ * Errors: NULL, RANGE, NOT_FINITE, OPTIONS, CAPACITY, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_tone_map(const uint32_t *counts, int64_t number, const ifsm_picture_options *options,
+                                                 uint8_t *rgba, int64_t capacity, int64_t *count);
+
+/* Points of the chaos game: of the measure, each independent enough of the one before in its address that means of many
+ * converge; the first n are the same however many there are.
+ *
+ * options   borrowed; NULL for defaults. Seed, points, threads count
+ * points    [out] points × d doubles
+ *
+ * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, NUMERICAL, OPTIONS, CAPACITY, CANCELLED, MEMORY. Any thread. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_sample(ifsm_system system, const ifsm_picture_options *options,
+                                                      double *points, int64_t capacity, int64_t *count);
+
+/* The first symbols of the addresses of the same points.
+ *
+ * length    1 … 1024
+ * symbols   [out] points × length
+ *
+ * Errors: as ifsm_system_sample. Since 0.1. */
+IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_sample_addresses(ifsm_system system, const ifsm_picture_options *options,
+                                                                int32_t length, int32_t *symbols, int64_t capacity,
+                                                                int64_t *count);
+
 #ifdef __cplusplus
 }
 #endif

@@ -44,7 +44,8 @@ Parameters parameters_from(const double* values, int dimension) {
     p.shift.head(2) << values[4], values[5];
     return p;
   }
-  for (Vector3* each : {&p.rotation, &p.scale, &p.shear, &p.shift}) *each = Eigen::Map<const Vector3>(values), values += 3;
+  for (Vector3* each : {&p.rotation, &p.scale, &p.shear, &p.shift})
+    *each = Eigen::Map<const Vector3>(values), values += 3;
   return p;
 }
 
@@ -143,7 +144,7 @@ ifsm_status ifsm_system_from_model(ifsm_model handle, ifsm_system* system) {
 }
 
 ifsm_status ifsm_model_from_system(ifsm_system handle, int32_t topology, const ifsm_curve* polygon, int32_t levels,
-                              ifsm_model* model) {
+                                   ifsm_model* model) {
   return guarded(__func__, [&] {
     const auto system = borrow(handle);
     const Topology shape = choice(topology, Topology::square, "topology");

@@ -50,7 +50,8 @@ std::vector<NamedFileSystem> read_systems(std::span<const std::uint8_t> bytes) {
       for (FlameSystem& each : read_flame(text)) systems.push_back({std::move(each.name), std::move(each.system)});
       break;
     case Kind::fractint:
-      for (FractintSystem& each : read_fractint(text)) systems.push_back({std::move(each.name), std::move(each.system)});
+      for (FractintSystem& each : read_fractint(text))
+        systems.push_back({std::move(each.name), std::move(each.system)});
       break;
   }
   return systems;

@@ -11,12 +11,13 @@
 namespace ifsm::core {
 namespace {
 
-// x → (a b; c d) x + (e, f), and the piece of the attractor under it: in a frame about the image of the enclosure's middle.
+// x → (a b; c d) x + (e, f), and the piece of the attractor under it: in a frame about the image of the enclosure's
+// middle.
 struct Piece {
   double a, b, c, d, e, f;
 
   Piece then(const Piece& m) const {
-    return {a * m.a + b * m.c, a * m.b + b * m.d,       c * m.a + d * m.c,
+    return {a * m.a + b * m.c, a * m.b + b * m.d,     c * m.a + d * m.c,
             c * m.b + d * m.d, a * m.e + b * m.f + e, c * m.e + d * m.f + f};
   }
   double x(double u, double v) const { return a * u + b * v + e; }
@@ -115,9 +116,7 @@ class Field {
     for (bool split = true; split;) {
       double most = std::numeric_limits<double>::infinity();
       for (const Frame& frame : frames) most = std::min(most, between(frame.point, middle));
-      std::erase_if(frames, [&](const Frame& frame) {
-        return least(frame, middle) > most + 2 * radius;
-      });
+      std::erase_if(frames, [&](const Frame& frame) { return least(frame, middle) > most + 2 * radius; });
       split = false;
       if (frames.size() > many) return;
       std::vector<Frame> finer;
@@ -188,8 +187,8 @@ std::vector<double> distances(const System& system, const Window& window, double
                                 (window.top - window.bottom) / static_cast<double>(window.height));
   // Rounding of coordinates, with room for the words' products.
   constexpr double rounding = 0x1p-44;
-  const double least = rounding *
-                       (system.enclosure().axes.norm() + system.enclosure().centre.cwiseAbs().maxCoeff()) / pixel;
+  const double least =
+      rounding * (system.enclosure().axes.norm() + system.enclosure().centre.cwiseAbs().maxCoeff()) / pixel;
   if (!(tolerance > least && tolerance <= 1))
     throw Error(Status::range, "tolerance",
                 "tolerance is " + text_of(tolerance) + " of a pixel; give one above " + text_of(least) +

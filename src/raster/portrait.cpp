@@ -25,8 +25,8 @@ Light whole(Rgb colour) {
 }
 
 // Colours by number, and which number an orbit has. An address is kept as the share of the measure that lies in pieces
-// of smaller addresses: for i_1 i_2 … that is P_i1 + p_i1 (P_i2 + p_i2 (…)), P_i the sum of the probabilities before i. So
-// each shade of a palette is seen as often as any other.
+// of smaller addresses: for i_1 i_2 … that is P_i1 + p_i1 (P_i2 + p_i2 (…)), P_i the sum of the probabilities before i.
+// So each shade of a palette is seen as often as any other.
 class Colours {
  public:
   static constexpr std::size_t most_letters = 16;
@@ -38,7 +38,8 @@ class Colours {
     double sum = 0;
     for (const double p : probabilities_) before_.push_back(sum), sum += p;
     if (look.colouring == Colouring::letter)
-      for (std::size_t i = 0; i < system.maps().size(); ++i) table_.push_back(whole(letter_colour(static_cast<int>(i))));
+      for (std::size_t i = 0; i < system.maps().size(); ++i)
+        table_.push_back(whole(letter_colour(static_cast<int>(i))));
     else
       for (std::size_t k = 0; k < shades; ++k)
         table_.push_back(whole(look.palette->at(static_cast<double>(k) / (shades - 1))));
@@ -146,7 +147,8 @@ class LightSums {
       const double solid = faintest + (1 - faintest) * density(counts[p]);
       std::array<double, 3> light{};
       for (std::size_t k = 0; k < 3; ++k)
-        light[k] = 1 - solid * (1 - static_cast<double>(sums_[p].light[k]) / static_cast<double>(sums_[p].count) / full_light);
+        light[k] =
+            1 - solid * (1 - static_cast<double>(sums_[p].light[k]) / static_cast<double>(sums_[p].count) / full_light);
       made.pixels[p] = {colour_of(light), 255};
     }
     return made;
@@ -195,7 +197,8 @@ class Nearest {
       ++made.met;
       nearness[p] = static_cast<float>(1 - static_cast<double>(seen_[p] >> 32) / farthest);
       const auto number = static_cast<std::uint32_t>(seen_[p]);
-      made.pixels[p] = {look.colouring == Colouring::tone ? look.palette->at(1 - nearness[p]) : colours.colour(number), 255};
+      made.pixels[p] = {look.colouring == Colouring::tone ? look.palette->at(1 - nearness[p]) : colours.colour(number),
+                        255};
     }
     shade(made.pixels, nearness, grid_.width, grid_.height, look.colouring != Colouring::tone);
     return made;

@@ -10,8 +10,8 @@
 
 namespace ifsm::core {
 
-// tone: density over the palette; of space, nearness. letter: the map that was taken last, so the piece that the point is
-// in. address: the share of the measure that lies in pieces of smaller addresses, over the palette.
+// tone: density over the palette; of space, nearness. letter: the map that was taken last, so the piece that the point
+// is in. address: the share of the measure that lies in pieces of smaller addresses, over the palette.
 enum class Colouring : std::int32_t { tone = 0, letter = 1, address = 2 };
 
 struct Look {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace ifsm::core {
 namespace {
@@ -52,6 +54,23 @@ Picture density_picture(std::span<const std::uint32_t> counts, const Palette& pa
   Picture picture(counts.size());
   for (std::size_t k = 0; k < counts.size(); ++k)
     if (counts[k] > 0) picture[k] = {palette.at(density(counts[k])), 255};
+  return picture;
+}
+
+Picture set_picture(std::span<const Meets> pixels, const Palette& palette) {
+  const Rgb dark = palette.at(1);
+  Picture picture(pixels.size());
+  for (std::size_t k = 0; k < pixels.size(); ++k)
+    if (pixels[k] != Meets::no) picture[k] = {dark, static_cast<std::uint8_t>(pixels[k] == Meets::yes ? 255 : 128)};
+  return picture;
+}
+
+Picture distance_picture(std::span<const double> distances, double pixel, const Palette& palette) {
+  const double farthest = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
+  const double top = std::max(std::log1p(farthest / pixel), std::numeric_limits<double>::min());
+  Picture picture(distances.size());
+  for (std::size_t k = 0; k < distances.size(); ++k)
+    picture[k] = {palette.at(1 - std::log1p(distances[k] / pixel) / top), 255};
   return picture;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "raster/palette.h"
+#include "raster/set.h"
 
 namespace ifsm::core {
 
@@ -18,9 +19,9 @@ struct Rgba {
 
 using Picture = std::vector<Rgba>;  // row by row, row 0 on top; alpha not multiplied in
 
-// How dense each pixel is, as the eye sees it: log(1 + 8 c / mean), 0 … 1, the mean being that of the pixels that were hit.
-// 1 is reached by one in two hundred of them, so that a few bright spots do not leave the rest dark. Depends neither on
-// how many points there were nor on the pixels' number.
+// How dense each pixel is, as the eye sees it: log(1 + 8 c / mean), 0 … 1, the mean being that of the pixels that were
+// hit. 1 is reached by one in two hundred of them, so that a few bright spots do not leave the rest dark. Depends
+// neither on how many points there were nor on the pixels' number.
 class Density {
  public:
   explicit Density(std::span<const std::uint32_t> counts);
@@ -33,6 +34,12 @@ class Density {
 
 // Counts over a palette: nothing where nothing was hit.
 Picture density_picture(std::span<const std::uint32_t> counts, const Palette& palette);
+
+// Pixels that are met in the palette's darkest colour, undecided ones half covered.
+Picture set_picture(std::span<const Meets> pixels, const Palette& palette);
+
+// Distances, in pixels, by their logarithms: from dark, near, to light.
+Picture distance_picture(std::span<const double> distances, double pixel, const Palette& palette);
 
 // `times` × `times` pixels to one: colours are averaged as light, by alpha.
 Picture shrunk(const Picture& picture, std::int64_t width, std::int64_t height, std::int64_t times);

@@ -26,8 +26,12 @@ Window window_around(const Box& box, std::int64_t width, std::int64_t height) {
   if (!(pixel > 0)) pixel = 1 / std::max(w, h);  // a point: any scale is as good
   // At least what doubles tell apart there.
   pixel = std::max(pixel, 4 * std::numeric_limits<double>::epsilon() * middle.cwiseAbs().maxCoeff());
-  return {middle(0) - pixel * w / 2, middle(1) - pixel * h / 2, middle(0) + pixel * w / 2, middle(1) + pixel * h / 2,
-          width, height};
+  return {middle(0) - pixel * w / 2,
+          middle(1) - pixel * h / 2,
+          middle(0) + pixel * w / 2,
+          middle(1) + pixel * h / 2,
+          width,
+          height};
 }
 
 }  // namespace ifsm::core

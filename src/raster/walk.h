@@ -46,8 +46,8 @@ class WalkMaps {
   std::vector<std::array<std::array<double, d + 1>, d>> rows_;
 };
 
-// 64 orbits of one chunk, all from the same point, step by step: `moved(step, orbit, x, letter)` after each step of each,
-// those before `start.steps` included. Points are those of chaos_counts, in its order, from that step on.
+// 64 orbits of one chunk, all from the same point, step by step: `moved(step, orbit, x, letter)` after each step of
+// each, those before `start.steps` included. Points are those of chaos_counts, in its order, from that step on.
 template <std::size_t d, class Moved>
 void walk(const WalkMaps<d>& maps, const Start& start, std::uint64_t seed, std::int64_t chunk, std::int64_t steps,
           const Watch& watch, const Moved& moved) {

@@ -17,7 +17,8 @@ KINDS = {  # kind of a parameter -> what its type looks like
     "structs_in": r"const ifsm_\w+ \*",
     "options_in": r"const ifsm_\w+_options \*", "options_out": r"ifsm_\w+_options \*", "struct_out": r"ifsm_\w+ \*",
     "size": r"uint32_t", "doubles_in": r"const double \*", "ints_in": r"const int32_t \*",
-    "int64s_in": r"const int64_t \*", "bytes_in": r"const uint8_t \*", "count": r"int64_t",
+    "int64s_in": r"const int64_t \*", "bytes_in": r"const uint8_t \*", "uints_in": r"const uint32_t \*",
+    "uints_out": r"uint32_t \*", "count": r"int64_t",
     "doubles_out": r"double \*", "ints_out": r"int32_t \*", "bytes_out": r"uint8_t \*", "capacity": r"int64_t",
     "count_out": r"int64_t \*", "double_out": r"double \*", "int_out": r"int32_t \*", "enum": r"int32_t",
     "integer": r"int32_t|int64_t", "zero": r"int32_t", "double": r"double", "string": r"const char \*", "name": r"const char \*",
@@ -25,7 +26,7 @@ KINDS = {  # kind of a parameter -> what its type looks like
     "struct_size": r"uint32_t", "id": r"uint64_t", "told": r".*"}
 OWNERSHIP = {"handle": {"borrowed", "destroyed"}, "handle_out": {"owned"}}
 NULLABLE = {"handle", "handle_out", "struct_in", "options_in", "options_out", "struct_out", "doubles_in", "ints_in",
-            "int64s_in", "bytes_in", "doubles_out", "ints_out", "bytes_out", "count_out", "double_out", "int_out", "string", "name",
+            "int64s_in", "bytes_in", "uints_in", "doubles_out", "ints_out", "uints_out", "bytes_out", "count_out", "double_out", "int_out", "string", "name",
             "callback", "user"}
 
 

@@ -7,7 +7,7 @@ import sys
 
 from check_tables import rows
 
-SIZES = {"doubles_out": "sizeof(double)", "ints_out": "sizeof(std::int32_t)", "bytes_out": "1"}
+SIZES = {"doubles_out": "sizeof(double)", "ints_out": "sizeof(std::int32_t)", "uints_out": "sizeof(std::uint32_t)", "bytes_out": "1"}
 
 
 def quoted(text):

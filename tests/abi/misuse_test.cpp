@@ -80,6 +80,15 @@ void expect_taken(Call& call, const std::string& what) {
   if (status == IFSM_OK) call.forget_handles();
 }
 
+// Options that say something else may want other sizes: then the arrays of the right call are refused, and nothing
+// else.
+void expect_understood(Call& call, const std::string& what) {
+  call.fill();
+  const ifsm_status status = call.run();
+  if (status != IFSM_ERROR_CAPACITY) return expect_taken(call, what);
+  EXPECT_TRUE(call.untouched()) << call.function().name << " with " << what;
+}
+
 // visit(function, index, parameter) for every parameter of one of the kinds.
 void for_each(const std::set<std::string>& kinds,
               const std::function<void(const Function&, std::size_t, const Parameter&)>& visit) {
@@ -102,14 +111,14 @@ void every_right_call_succeeds() {
 TEST(Misuse, StartsFromCallsThatSucceed) { every_right_call_succeeds(); }
 
 TEST(Misuse, NullPointersAreRefusedOrHaveAMeaning) {
-  for_each({"handle_out", "struct_in", "options_in", "options_out", "struct_out", "doubles_in", "ints_in", "int64s_in",
-            "bytes_in", "doubles_out", "ints_out", "bytes_out", "count_out", "double_out", "int_out", "string", "name",
-            "callback", "user"},
+  for_each({"handle_out", "struct_in",  "options_in", "options_out", "struct_out", "doubles_in", "ints_in",
+            "int64s_in",  "bytes_in",   "uints_in",   "doubles_out", "ints_out",   "uints_out",  "bytes_out",
+            "count_out",  "double_out", "int_out",    "string",      "name",       "callback",   "user"},
            [](const Function& function, std::size_t i, const Parameter& parameter) {
              Call call(world(), function);
              call[i].pointer = nullptr;
              if (parameter.null == "allowed")
-               expect_taken(call, text(parameter, "NULL"));
+               expect_understood(call, text(parameter, "NULL"));
              else  // an output array with a capacity, too
                expect_refused(call, {IFSM_ERROR_NULL}, {parameter.name}, text(parameter, "NULL"));
            });
@@ -390,7 +399,7 @@ TEST(Misuse, StructsOfNewerAndOlderHeadersAreTakenAndNothingBehindThemIsRead) {
     }
     const std::uint32_t oldest = 8;
     std::memcpy(call.buffer(i).data(), &oldest, sizeof oldest);
-    expect_taken(call, text(parameter, "of the oldest header"));
+    expect_understood(call, text(parameter, "of the oldest header"));
   });
   for_each({"struct_out"}, [](const Function& function, std::size_t i, const Parameter& parameter) {
     Call call(world(), function);

@@ -41,10 +41,10 @@ std::vector<std::uint8_t> bytes_of(const T* values, std::size_t count) {
 }  // namespace
 
 bool is_array_in(const std::string& kind) {
-  return kind == "doubles_in" || kind == "ints_in" || kind == "int64s_in" || kind == "bytes_in";
+  return kind == "doubles_in" || kind == "ints_in" || kind == "int64s_in" || kind == "bytes_in" || kind == "uints_in";
 }
 bool is_array_out(const std::string& kind) {
-  return kind == "doubles_out" || kind == "ints_out" || kind == "bytes_out";
+  return kind == "doubles_out" || kind == "ints_out" || kind == "uints_out" || kind == "bytes_out";
 }
 bool is_output(const std::string& kind) {
   static const std::set<std::string> kinds = {"handle_out", "struct_out", "options_out",
@@ -246,6 +246,10 @@ void Call::prepare(std::size_t i) {
     const std::vector<std::int64_t>& values = world_.wide_ints(parameter.good);
     buffer = bytes_of(values.data(), values.size());
     elements_[i] = static_cast<std::int64_t>(values.size());
+  } else if (kind == "uints_in") {
+    const std::vector<std::uint32_t> values = {0, 1, 7, 0xffffffff};
+    buffer = bytes_of(values.data(), values.size());
+    elements_[i] = static_cast<std::int64_t>(values.size());
   } else if (kind == "bytes_in") {
     buffer = world_.saved(parameter.good);
     elements_[i] = static_cast<std::int64_t>(buffer.size());
@@ -275,6 +279,10 @@ void Call::prepare(std::size_t i) {
     } else if (parameter.type == "ifsm_train_options") {
       ifsm_train_options options{};
       options.struct_size = size, options.control_points = control_points, options.iterations = options.rounds = 1;
+      std::memcpy(buffer.data(), &options, sizeof options);
+    } else if (parameter.type == "ifsm_picture_options") {
+      ifsm_picture_options options{};  // small, and quick
+      options.struct_size = size, options.width = 8, options.points = 1000;
       std::memcpy(buffer.data(), &options, sizeof options);
     }
   } else if (is_output(kind) && !is_array_out(kind)) {

@@ -30,7 +30,7 @@ class World {
   const std::vector<std::int32_t>& ints(const std::string& name) const { return ints_.at(name); }
   const std::vector<std::int64_t>& wide_ints(const std::string& name) const { return wide_ints_.at(name); }
   const std::vector<std::uint8_t>& saved(const std::string& what) const;
-  std::uint64_t refuted() const { return refuted_; }  // a system that does not contract
+  std::uint64_t refuted() const { return refuted_; }   // a system that does not contract
   std::int64_t number(const std::string& word) const;  // "7", or "L", "L-1", "H-1", "curves-1", "budgets-1"
 
   ifsm_curve curve() const;

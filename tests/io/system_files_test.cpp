@@ -33,7 +33,8 @@ TEST(SystemFiles, OfSeveralAreAskedByName) {
       write_fractint("a", *named_system("fern")) + write_fractint("b", *named_system("menger_sponge"));
   EXPECT_EQ(read_system_named(bytes_of(text), "b")->dimension(), 3);
   EXPECT_EQ(read_systems(bytes_of(text)).size(), 2U);
-  for (const std::optional<std::string_view> name : {std::optional<std::string_view>(), std::optional<std::string_view>("c")}) {
+  for (const std::optional<std::string_view> name :
+       {std::optional<std::string_view>(), std::optional<std::string_view>("c")}) {
     const Error error = refusal([&] { read_system_named(bytes_of(text), name); });
     EXPECT_EQ(error.status(), Status::range);
     EXPECT_EQ(error.argument(), "name");
