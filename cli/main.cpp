@@ -28,6 +28,7 @@ constexpr const char* footer =
     "  ifsm measure coast.ifsm\n"
     "  ifsm refine coast.ifsm --levels 3 -o finer.ifsm\n"
     "  ifsm plot coast.ifsm -o coast.svg\n"
+    "  ifsm render fern -o fern.png\n"
     "\n"
     "ifsm COMMAND --help tells the options of a command.\n";
 
@@ -38,12 +39,13 @@ int fail(cli::Exit code, const char* message) {
 
 int run(int argc, char** argv) {
   cli::Session session;
-  CLI::App program("Fractal detail models of measured curves", "ifsm");
+  CLI::App program("Fractal detail models of measured curves, and iterated function systems", "ifsm");
   program.set_version_flag("--version", "ifsm " + ifsm::version());
   program.require_subcommand(1);
   program.footer(footer);
-  for (const auto add : {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_plot, cli::add_measure,
-                         cli::add_nearest, cli::add_refine, cli::add_deform, cli::add_train})
+  for (const auto add :
+       {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_plot, cli::add_measure, cli::add_nearest,
+        cli::add_refine, cli::add_deform, cli::add_train, cli::add_render, cli::add_convert})
     add(program, session);
   cli::check_command(program, argc, argv);
   try {

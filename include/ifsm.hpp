@@ -204,7 +204,25 @@ enum class Distance : std::int32_t {
   largest = IFSM_DISTANCE_LARGEST,
   hausdorff = IFSM_DISTANCE_HAUSDORFF
 };
-enum class Format : std::int32_t { json = IFSM_FORMAT_JSON, cbor = IFSM_FORMAT_CBOR };
+enum class Format : std::int32_t {
+  json = IFSM_FORMAT_JSON,
+  cbor = IFSM_FORMAT_CBOR,
+  fractint = IFSM_FORMAT_FRACTINT  // systems alone
+};
+enum class Colour : std::int32_t {
+  tone = IFSM_COLOUR_TONE,
+  symbol = IFSM_COLOUR_SYMBOL,
+  address = IFSM_COLOUR_ADDRESS,
+  set = IFSM_COLOUR_SET,
+  distance = IFSM_COLOUR_DISTANCE
+};
+enum class Palette : std::int32_t {
+  dusk = IFSM_PALETTE_DUSK,
+  sea = IFSM_PALETTE_SEA,
+  fern = IFSM_PALETTE_FERN,
+  ember = IFSM_PALETTE_EMBER,
+  ink = IFSM_PALETTE_INK
+};
 
 // ------------------------------------------------------------------------------------------------------------------
 // Filters
@@ -1038,6 +1056,274 @@ inline Trained train(const std::vector<Curve>& curves, const TrainOptions& optio
   if (trampoline.thrown) std::rethrow_exception(trampoline.thrown);
   detail::check(status);
   return {std::move(filter), report};
+}
+
+// ------------------------------------------------------------------------------------------------------------------
+// Systems: iterated function systems
+
+// What ifsm_picture_options says; zero means the default everywhere, as there.
+struct PictureOptions {
+  int width = 0, height = 0;
+  int threads = 0;
+  double left = 0, bottom = 0, right = 0, top = 0;  // all zero: around the attractor
+  std::uint64_t seed = 0;
+  std::int64_t points = 0;
+  double tolerance = 0;
+  Colour colour = Colour::tone;
+  Palette palette = Palette::dusk;
+  std::vector<std::uint8_t> stops;  // red, green, blue of each colour, instead of the palette
+  int symbols = 0;
+  int oversample = 0;
+  std::uint32_t background = 0;
+  double azimuth = 0, elevation = 0, field = 0;
+  const Cancel* cancel = nullptr;
+  std::function<bool(double fraction, const std::string& stage)> progress;  // true cancels
+};
+
+// What was drawn: the report tells the window, and how much of it was met.
+template <class Value>
+struct Drawn {
+  ifsm_picture_report report;
+  std::vector<Value> values;  // row by row, row 0 on top
+};
+
+namespace detail {
+
+// call(options) with PictureOptions in C's terms; what its progress throws is thrown again.
+template <class Call>
+void with_picture_options(const PictureOptions& options, const Call& call) {
+  ifsm_picture_options told{};
+  check(ifsm_picture_options_init(&told, sizeof told));
+  told.width = options.width, told.height = options.height, told.threads = options.threads;
+  told.left = options.left, told.bottom = options.bottom, told.right = options.right, told.top = options.top;
+  told.seed = options.seed, told.points = options.points, told.tolerance = options.tolerance;
+  told.colour = static_cast<std::int32_t>(options.colour);
+  told.palette = static_cast<std::int32_t>(options.palette);
+  told.stops = options.stops.data(), told.stop_count = size_of(options.stops.size());
+  told.symbols = options.symbols, told.oversample = options.oversample, told.background = options.background;
+  told.azimuth = options.azimuth, told.elevation = options.elevation, told.field = options.field;
+  if (options.cancel != nullptr) told.cancel = options.cancel->handle();
+  Trampoline trampoline{&options.progress};
+  if (options.progress) told.progress = Trampoline::call, told.user = &trampoline;
+  const ifsm_status status = call(&told);
+  if (trampoline.thrown) std::rethrow_exception(trampoline.thrown);
+  check(status);
+}
+
+}  // namespace detail
+
+class System {
+ public:
+  System() = default;                                              // the null handle
+  explicit System(ifsm_system owned) noexcept : handle_(owned) {}  // takes ownership
+
+  // Maps of d × (d + 1) numbers each, row by row (M | t); probabilities: one a map, or none.
+  System(int dimension, const std::vector<double>& maps, const std::vector<double>& probabilities = {})
+      : System(make([&](ifsm_system* made) {
+          return ifsm_system_create(dimension, maps.data(), detail::size_of(maps.size()), probabilities.data(),
+                                    detail::size_of(probabilities.size()), made);
+        })) {}
+
+  static System from_parameters(int dimension, const std::vector<double>& parameters,
+                                const std::vector<double>& probabilities = {}) {
+    return make([&](ifsm_system* made) {
+      return ifsm_system_from_parameters(dimension, parameters.data(), detail::size_of(parameters.size()),
+                                         probabilities.data(), detail::size_of(probabilities.size()), made);
+    });
+  }
+  static System named(const std::string& name) {
+    return make([&](ifsm_system* made) { return ifsm_system_named(name.c_str(), made); });
+  }
+  static System from_model(const Model& model) {
+    return make([&](ifsm_system* made) { return ifsm_system_from_model(model.handle(), made); });
+  }
+
+  // From a file's bytes, of any format; of several systems the one of that name.
+  static System load(const std::vector<std::uint8_t>& bytes) { return load(bytes, nullptr); }
+  static System load(const std::vector<std::uint8_t>& bytes, const std::string& name) {
+    return load(bytes, name.c_str());
+  }
+  std::vector<std::uint8_t> save(Format format, const std::string& name = "system") const {
+    return detail::fetch<std::uint8_t>(
+        [&](auto... to) { return ifsm_system_save(handle(), static_cast<std::int32_t>(format), name.c_str(), to...); });
+  }
+
+  // A model without details, in the library's own polygon.
+  Model model(Topology topology, int levels) const {
+    ifsm_model made{};
+    detail::check(ifsm_model_from_system(handle(), static_cast<std::int32_t>(topology), nullptr, levels, &made));
+    return Model(made);
+  }
+  Model model(Topology topology, const Curve& polygon, int levels) const {
+    ifsm_model made{};
+    detail::check(ifsm_model_from_system(handle(), static_cast<std::int32_t>(topology), &polygon.get(), levels, &made));
+    return Model(made);
+  }
+
+  ifsm_system_info describe() const {
+    return detail::describe<ifsm_system_info>([&](auto* told) { return ifsm_system_describe(handle(), told); });
+  }
+  std::vector<double> maps() const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_system_maps(handle(), to...); });
+  }
+  std::vector<double> parameters() const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_system_parameters(handle(), to...); });
+  }
+  std::vector<double> probabilities() const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_system_probabilities(handle(), to...); });
+  }
+  std::vector<double> fixed_points() const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_system_fixed_points(handle(), to...); });
+  }
+  std::vector<std::int32_t> witness() const {
+    return detail::fetch<std::int32_t>([&](auto... to) { return ifsm_system_witness(handle(), to...); });
+  }
+
+  // Words, points, addresses (row by row, `length` symbols each).
+  std::vector<double> word(const std::vector<std::int32_t>& symbols) const {
+    return detail::fetch<double>(
+        [&](auto... to) { return ifsm_system_word(handle(), symbols.data(), detail::size_of(symbols.size()), to...); });
+  }
+  std::vector<double> point(const std::vector<std::int32_t>& symbols, std::int64_t period = 1) const {
+    return detail::fetch<double>([&](auto... to) {
+      return ifsm_system_point(handle(), symbols.data(), detail::size_of(symbols.size()), period, to...);
+    });
+  }
+  std::vector<std::int32_t> addresses(const std::vector<double>& point, int length, double tolerance = 0) const {
+    return detail::fetch<std::int32_t>([&](auto... to) {
+      return ifsm_system_addresses(handle(), point.data(), detail::size_of(point.size()), length, tolerance, to...);
+    });
+  }
+
+  // The attractor and its measure; a tolerance of 0 is a billionth of its size.
+  std::vector<double> box(double tolerance = 0) const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_system_box(handle(), tolerance, to...); });
+  }
+  std::vector<double> ball(double tolerance = 0) const {
+    return detail::fetch<double>([&](auto... to) { return ifsm_system_ball(handle(), tolerance, to...); });
+  }
+  double diameter(double tolerance = 0) const {
+    double told = 0;
+    detail::check(ifsm_system_diameter(handle(), tolerance, &told));
+    return told;
+  }
+  std::vector<double> moments(int degree, const std::vector<double>& about = {}) const {
+    return detail::fetch<double>([&](auto... to) {
+      return ifsm_system_moments(handle(), degree, about.data(), detail::size_of(about.size()), to...);
+    });
+  }
+  double similarity_dimension() const {
+    double told = 0;
+    detail::check(ifsm_system_similarity_dimension(handle(), &told));
+    return told;
+  }
+  Dimension box_dimension(int finest = 0) const {
+    Dimension found{};
+    found.report.struct_size = sizeof found.report;
+    const auto rows = detail::fetch<double>(
+        [&](auto... to) { return ifsm_system_box_dimension(handle(), finest, &found.report, to...); });
+    for (auto row = rows.begin(); row != rows.end(); row += 2)
+      found.scales.push_back(row[0]), found.counts.push_back(row[1]);
+    return found;
+  }
+
+  // Pictures and points.
+  Drawn<std::uint32_t> histogram(const PictureOptions& options = {}) const {
+    return draw<std::uint32_t>(ifsm_system_histogram, options);
+  }
+  Drawn<std::uint8_t> set(const PictureOptions& options = {}) const {
+    return draw<std::uint8_t>(ifsm_system_set, options);
+  }
+  Drawn<double> distances(const PictureOptions& options = {}) const {
+    return draw<double>(ifsm_system_distances, options);
+  }
+  Drawn<std::uint8_t> render(const PictureOptions& options = {}) const {
+    return draw<std::uint8_t>(ifsm_system_render, options);
+  }
+  std::vector<double> sample(const PictureOptions& options = {}) const {
+    std::vector<double> points;
+    detail::with_picture_options(options, [&](const ifsm_picture_options* told) {
+      return filled(points, [&](auto... to) { return ifsm_system_sample(handle(), told, to...); });
+    });
+    return points;
+  }
+  std::vector<std::int32_t> sample_addresses(int length, const PictureOptions& options = {}) const {
+    std::vector<std::int32_t> symbols;
+    detail::with_picture_options(options, [&](const ifsm_picture_options* told) {
+      return filled(symbols, [&](auto... to) { return ifsm_system_sample_addresses(handle(), told, length, to...); });
+    });
+    return symbols;
+  }
+
+  ifsm_system handle() const noexcept { return handle_.get(); }
+  ifsm_system release() noexcept { return handle_.release(); }  // the caller destroys it
+
+ private:
+  template <class Call>
+  static System make(const Call& call) {
+    ifsm_system made{};
+    detail::check(call(&made));
+    return System(made);
+  }
+
+  static System load(const std::vector<std::uint8_t>& bytes, const char* name) {
+    return make(
+        [&](ifsm_system* made) { return ifsm_system_load(bytes.data(), detail::size_of(bytes.size()), name, made); });
+  }
+
+  // The count, then the values; the first status that is none of success.
+  template <class Value, class Call>
+  static ifsm_status filled(std::vector<Value>& values, const Call& call) {
+    std::int64_t count = 0;
+    const ifsm_status status = call(nullptr, 0, &count);
+    if (status != IFSM_OK) return status;
+    values.resize(static_cast<std::size_t>(count));
+    return call(values.data(), count, &count);
+  }
+
+  template <class Value, class Function>
+  Drawn<Value> draw(const Function& function, const PictureOptions& options) const {
+    Drawn<Value> drawn{};
+    drawn.report.struct_size = sizeof drawn.report;
+    detail::with_picture_options(options, [&](const ifsm_picture_options* told) {
+      return filled(drawn.values, [&](auto... to) { return function(handle(), told, &drawn.report, to...); });
+    });
+    return drawn;
+  }
+
+  detail::Owner<ifsm_system, ifsm_system_destroy> handle_;
+};
+
+// The names of a file's systems; of formats without names a single empty one.
+inline std::vector<std::string> system_names(const std::vector<std::uint8_t>& bytes) {
+  const auto lines = detail::fetch<std::uint8_t>(
+      [&](auto... to) { return ifsm_system_file_names(bytes.data(), detail::size_of(bytes.size()), to...); });
+  std::vector<std::string> names(1);
+  for (const std::uint8_t byte : lines)
+    byte == '\n' ? static_cast<void>(names.emplace_back()) : names.back().push_back(static_cast<char>(byte));
+  names.pop_back();  // every line has an end
+  return names;
+}
+
+// All systems that have names.
+inline std::vector<ifsm_system_entry> system_catalog() {
+  std::vector<ifsm_system_entry> entries;
+  ifsm_system_entry entry{};
+  entry.struct_size = sizeof entry;
+  while (ifsm_system_catalog(detail::size_of(entries.size()), &entry) == IFSM_OK) entries.push_back(entry);
+  return entries;
+}
+
+// Red, green, blue, alpha for each count.
+inline std::vector<std::uint8_t> tone_map(const std::vector<std::uint32_t>& counts,
+                                          const PictureOptions& options = {}) {
+  std::vector<std::uint8_t> rgba(counts.size() * 4);
+  detail::with_picture_options(options, [&](const ifsm_picture_options* told) {
+    std::int64_t count = 0;
+    return ifsm_tone_map(counts.data(), detail::size_of(counts.size()), told, rgba.data(), detail::size_of(rgba.size()),
+                         &count);
+  });
+  return rgba;
 }
 
 }  // namespace ifsm

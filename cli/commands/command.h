@@ -29,6 +29,8 @@ void add_measure(CLI::App& program, Session& session);
 void add_nearest(CLI::App& program, Session& session);
 void add_refine(CLI::App& program, Session& session);
 void add_deform(CLI::App& program, Session& session);
+void add_render(CLI::App& program, Session& session);
+void add_convert(CLI::App& program, Session& session);
 
 // ---- options that several commands share
 

@@ -1,17 +1,21 @@
-// ifsm info: what a model holds.
+// ifsm info: what a model, or a system, holds.
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "commands/command.h"
+#include "commands/info_system.h"
 #include "curves.h"
 #include "files.h"
 #include "models.h"
+#include "systems.h"
 
 namespace cli {
 namespace {
 
 struct InfoArguments {
   std::string model;
+  std::optional<std::string> name;
   bool json = false;
 };
 
@@ -101,27 +105,49 @@ std::string in_words(const Json& report) {
          aligned({"level", "details", "kept", "RMS effect", "largest", "energy"}, rows);
 }
 
-void run(const InfoArguments& arguments) {
-  const auto model = load_model(arguments.model);
-  const auto report = report_of(input_name(arguments.model), model);
+void tell(const InfoArguments& arguments, const Json& report, std::string (*in_words)(const Json&)) {
   if (arguments.json)
     print(report);
   else
     print(in_words(report));
 }
 
+void tell_system(const InfoArguments& arguments, std::string_view bytes) {
+  const std::string source = input_name(arguments.model);
+  const auto names = ifsm::system_names({bytes.begin(), bytes.end()});
+  if (names.size() > 1 && !arguments.name) return tell(arguments, report_of_file(source, names), file_in_words);
+  const auto system = parse_system(bytes, source, arguments.name);
+  tell(arguments, report_of_system(source, system), system_in_words);
+}
+
+void run(const InfoArguments& arguments) {
+  if (names_system(arguments.model)) {
+    const auto system = load_system(arguments.model, arguments.name);
+    return tell(arguments, report_of_system(arguments.model, system), system_in_words);
+  }
+  const std::string bytes = read_file(arguments.model);
+  if (looks_like_system(bytes, arguments.model)) return tell_system(arguments, bytes);
+  const std::string source = input_name(arguments.model);
+  tell(arguments, report_of(source, parse_model(bytes, source)), in_words);
+}
+
 }  // namespace
 
 void add_info(CLI::App& program, Session&) {
-  auto* command = program.add_subcommand("info", "Tell what a model holds");
+  auto* command = program.add_subcommand("info", "Tell what a model holds, or a system");
   auto arguments = std::make_shared<InfoArguments>();
-  command->add_option("model", arguments->model, "A model written by ifsm fit; - is standard input")->required();
+  command
+      ->add_option("model", arguments->model,
+                   "A model written by ifsm fit; or a system, by name or as a file; - is standard input")
+      ->required();
+  command->add_option("--name", arguments->name, "Which of a file of several systems");
   command->add_flag("--json", arguments->json, "Report as JSON");
   command->footer(
       "RMS effect: what the details of a level do to the curve, in the units of the samples.\n\n"
       "Examples:\n"
       "  ifsm info coast.ifsm\n"
-      "  ifsm info coast.ifsm --json\n");
+      "  ifsm info coast.ifsm --json\n"
+      "  ifsm info fern\n");
   command->callback([arguments] { run(*arguments); });
 }
 

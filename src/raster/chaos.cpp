@@ -40,7 +40,8 @@ void require_window(const Window& window) {
 
 void require_plane(const System& system) {
   if (system.dimension() == 2) return;
-  throw Error(Status::shape, "system", "The system lies in space; project it to the plane first.")
+  throw Error(Status::shape, "system",
+              "The system lies in space; counts, sets and distances are those of systems of the plane.")
       .with(system.dimension());
 }
 

@@ -1,0 +1,241 @@
+// ifsm render: pictures and points of a system.
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "commands/command.h"
+#include "commands/values.h"
+#include "failure.h"
+#include "files.h"
+#include "image.h"
+#include "progress.h"
+#include "systems.h"
+
+namespace cli {
+namespace {
+
+struct RenderArguments {
+  std::string system;
+  std::optional<std::string> name;
+  std::string output;
+  std::string format;
+  std::optional<int> size;
+  std::vector<double> window;
+  std::string colour = "tone", palette = "dusk", background = "none";
+  double azimuth = 35, elevation = 25, field = 30;  // degrees
+  std::optional<std::int64_t> points;
+  bool coarse = false;
+  ifsm::PictureOptions options;
+  Talk talk;
+};
+
+const std::vector<std::string> colours{"tone", "symbol", "address", "set", "distance"};
+const std::vector<std::string> palettes{"dusk", "sea", "fern", "ember", "ink"};
+constexpr std::int64_t usual_points = 100000;  // of a file of points
+
+template <class Enum>
+Enum number_of(const std::vector<std::string>& words, const std::string& word) {
+  return static_cast<Enum>(std::find(words.begin(), words.end(), word) - words.begin());
+}
+
+std::string format_of(const RenderArguments& arguments) {
+  std::string format = arguments.format;
+  if (format.empty())
+    for (const char* known : {"png", "ply", "csv"})
+      if (arguments.output.ends_with(std::string(".") + known)) format = known;
+  if (format.empty())
+    throw Failure(Exit::Usage, "-o " + arguments.output + " ends in none of .png, .ply and .csv; add --format.");
+  return format;
+}
+
+// "#rgb", "#rrggbb", "#rrggbbaa", "white", "black", "none".
+std::uint32_t colour_code(const std::string& given) {
+  std::string text = given;
+  if (text.size() == 4 && text.front() == '#') text = {'#', text[1], text[1], text[2], text[2], text[3], text[3]};
+  if (text == "none") return 0;
+  if (text == "white") return 0xffffffff;
+  if (text == "black") return 0x000000ff;
+  const bool right = (text.size() == 7 || text.size() == 9) && text.front() == '#' &&
+                     text.find_first_not_of("0123456789abcdefABCDEF", 1) == text.npos;
+  if (!right)
+    throw Failure(Exit::Usage,
+                  "--background: '" + text + "' is no colour; give #rrggbb, #rrggbbaa, white, black or none.");
+  const auto code = static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
+  return text.size() == 9 ? code : code << 8 | 0xff;
+}
+
+// A job that signals cancel, and a bar.
+class Job {
+ public:
+  Job(Session& session, const RenderArguments& arguments)
+      : cancellable_(session.interrupt), progress_("render", Progress::style_of_terminal(arguments.talk.quiet)) {}
+
+  void attach(ifsm::PictureOptions& options) {
+    options.cancel = &cancellable_.token();
+    options.progress = [this](double fraction, const std::string& stage) {
+      progress_.update(fraction, stage);
+      return false;
+    };
+  }
+  void confirm() const { cancellable_.confirm(); }
+
+ private:
+  Interrupt::Cancellable cancellable_;
+  Progress progress_;
+};
+
+ifsm::PictureOptions options_of(const RenderArguments& arguments) {
+  constexpr double degree = std::numbers::pi / 180;
+  ifsm::PictureOptions options = arguments.options;
+  if (arguments.size) options.width = options.height = *arguments.size;
+  if (!arguments.window.empty()) {
+    if (arguments.window.size() != 4)
+      throw Failure(Exit::Usage, "--window has " + counted(arguments.window.size(), "number") +
+                                     "; give four: left,bottom,right,top.");
+    options.left = arguments.window[0], options.bottom = arguments.window[1];
+    options.right = arguments.window[2], options.top = arguments.window[3];
+  }
+  options.colour = number_of<ifsm::Colour>(colours, arguments.colour);
+  options.palette = number_of<ifsm::Palette>(palettes, arguments.palette);
+  options.background = colour_code(arguments.background);
+  options.azimuth = arguments.azimuth * degree;
+  options.elevation = arguments.elevation * degree;
+  options.field = arguments.field * degree;
+  if (arguments.points) options.points = *arguments.points;
+  return options;
+}
+
+struct Result {
+  std::string bytes;
+  Json report;
+};
+
+Result picture(const ifsm::System& system, const ifsm::PictureOptions& options) {
+  const auto drawn = system.render(options);
+  const auto& told = drawn.report;
+  return {png_of(drawn.values, told.width, told.height),
+          {{"width", told.width},
+           {"height", told.height},
+           {"window", {told.left, told.bottom, told.right, told.top}},
+           {"points", told.points},
+           {"inside", told.inside},
+           {"met", told.met},
+           {"undecided", told.undecided}}};
+}
+
+Result points(const ifsm::System& system, ifsm::PictureOptions options, const std::string& format,
+              const std::string& title) {
+  if (options.points == 0) options.points = usual_points;
+  const int dimension = system.describe().dimension;
+  auto values = system.sample(options);
+  const Json report{{"points", options.points}, {"dimension", dimension}};
+  if (format == "ply")
+    return {
+        ply_of(values, dimension, system.sample_addresses(1, options), "points of " + printable(title) + ", by ifsm"),
+        report};
+  Table table;
+  table.names = dimension == 2 ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"};
+  table.columns = static_cast<std::size_t>(dimension);
+  table.values = std::move(values);
+  return {format_csv(table), report};
+}
+
+std::string in_words(const Json& report) {
+  const std::string output = report["output"].get<std::string>() + ": ";
+  const std::string size = "; " + report["bytes"].dump() + " bytes of " + report["format"].get<std::string>() + "\n";
+  if (!report.contains("window")) return output + report["points"].dump() + " points" + size;
+  const auto side = [&](int k) { return rounded(report["window"][static_cast<std::size_t>(k)].get<double>()); };
+  std::string words = output + report["width"].dump() + " x " + report["height"].dump() + " pixels, x from " + side(0) +
+                      " to " + side(2) + ", y from " + side(1) + " to " + side(3);
+  if (report["points"] != 0)
+    words += "; " + report["inside"].dump() + " of " + report["points"].dump() + " points inside";
+  if (report["points"] != 0 && report["inside"] == 0) words += ": the window misses the attractor";
+  return words + size;
+}
+
+void run(const RenderArguments& arguments, Session& session) {
+  refuse_json_beside_result(arguments.talk, arguments.output);
+  const std::string format = format_of(arguments);
+  auto options = options_of(arguments);
+  check_writable(arguments.output);
+  if (!names_system(arguments.system)) check_not_read(arguments.output, {arguments.system});
+  const auto system = load_system(arguments.system, arguments.name);
+  const std::string title = title_of_system(arguments.system, arguments.name);
+  Result result;
+  {
+    Job job(session, arguments);
+    job.attach(options);
+    result = format == "png" ? picture(system, options) : points(system, options, format, title);
+    job.confirm();
+  }
+  write_file(arguments.output, result.bytes);
+  const auto report = [&] {
+    Json whole{{"system", title}, {"output", arguments.output}, {"format", format}, {"bytes", result.bytes.size()}};
+    whole.update(result.report);
+    return whole;
+  };
+  tell_report(arguments.talk, arguments.output, report, in_words);
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, Session& session) {
+  auto* command = program.add_subcommand("render", "Draw a system, or write points of it");
+  auto arguments = std::make_shared<RenderArguments>();
+  auto& a = *arguments;
+  command->add_option("system", a.system, "A system's name, e.g. fern, or a file; - is standard input")->required();
+  command->add_option("-o,--output", a.output, "What to write: .png, or points as .ply or .csv; - is standard output")
+      ->required();
+  command->add_option("--name", a.name, "Which of a file of several");
+  auto* size = command->add_option("--size", a.size, "Pixels along both sides (default 1024)")
+                   ->transform(whole_number(1, 32768));
+  command->add_option("--width", a.options.width, "Pixels")->transform(whole_number(1, 32768))->excludes(size);
+  command->add_option("--height", a.options.height, "Pixels (default: as wide)")
+      ->transform(whole_number(1, 32768))
+      ->excludes(size);
+  command->add_option("--window", a.window, "left,bottom,right,top (default: around the attractor)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option("--colour,--color", a.colour,
+                   "tone: how dense, or in space how near; symbol: by piece; address: by address; set: met for "
+                   "certain; distance")
+      ->check(one_of(colours))
+      ->capture_default_str();
+  command->add_option("--palette", a.palette, "dusk, sea, fern, ember, ink")
+      ->check(one_of(palettes))
+      ->capture_default_str();
+  command->add_option("--symbols", a.options.symbols, "Of addresses, so many symbols (default: all)")
+      ->transform(whole_number(1, 16));
+  command->add_option("--background", a.background, "#rrggbb, #rrggbbaa, white, black")->capture_default_str();
+  command->add_option("--points", a.points, "Points to play (default: 16 a pixel, in space 32; of a file 100000)")
+      ->transform(whole_number(1, std::uint64_t{1} << 50));
+  command->add_option("--seed", a.options.seed, "Another seed, other points")
+      ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()))
+      ->capture_default_str();
+  command->add_option("--oversample", a.options.oversample, "Pixels computed for each, along both sides (default 2)")
+      ->transform(whole_number(1, 8));
+  command->add_option("--tolerance", a.options.tolerance, "Of sets and distances, in pixels")
+      ->check(number_between("0", "1"));
+  command->add_option("--azimuth", a.azimuth, "Space: degrees about the z axis")->capture_default_str();
+  command->add_option("--elevation", a.elevation, "Space: degrees above the xy plane")->capture_default_str();
+  command->add_option("--field", a.field, "Space: the angle of view in degrees; 0 for parallel lines")
+      ->check(number_between("0", "170"))
+      ->capture_default_str();
+  command->add_option("--format", a.format, "png, ply or csv (default: as the name ends)")
+      ->check(one_of({"png", "ply", "csv"}));
+  add_talk(*command, a.talk);
+  command->footer(
+      "Examples:\n"
+      "  ifsm render fern -o fern.png\n"
+      "  ifsm render dragon --colour address --palette sea --background white -o dragon.png\n"
+      "  ifsm render fern --window 0,2,2,4 --size 2048 -o part.png\n"
+      "  ifsm render sponge --azimuth 50 --elevation 30 -o sponge.png\n"
+      "  ifsm render sponge --points 1000000 -o sponge.ply\n");
+  command->callback([arguments, &session] { run(*arguments, session); });
+}
+
+}  // namespace cli
