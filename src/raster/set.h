@@ -21,4 +21,10 @@ enum class Meets : std::uint8_t {
 // coordinates. Deterministic: words of maps are followed to where their pieces are small; nothing is drawn.
 std::vector<Meets> set_pixels(const System& system, const Window& window, double tolerance, Watch& watch);
 
+// The same proofs by a plain search of pieces in their boxes, of which more may stay undecided: what the vectors are
+// tested against.
+namespace plain {
+std::vector<Meets> set_pixels(const System& system, const Window& window, double tolerance);
+}
+
 }  // namespace ifsm::core

@@ -1,5 +1,7 @@
 #include "raster/set.h"
 
+#include <hwy/targets.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -166,6 +168,98 @@ TEST(SetPixels, OfAPartAreThoseOfTheWhole) {
 TEST(SetPixels, AreNoneWhereTheWindowMissesTheAttractor) {
   const auto states = set_of(*named_system("fern"), {100, 100, 101, 101, 10, 10});
   EXPECT_EQ(count(states, Meets::no), 100);
+}
+
+// A window of so many pixels of that size, about a point, out of step with everything.
+Window about(const Vector3& point, double pixel, std::int64_t width, std::int64_t height) {
+  const double left = point(0) - .47 * pixel * static_cast<double>(width),
+               bottom = point(1) - .53 * pixel * static_cast<double>(height);
+  return {left,
+          bottom,
+          left + 1.07 * pixel * static_cast<double>(width),
+          bottom + .97 * pixel * static_cast<double>(height),
+          width,
+          height};
+}
+
+// No pixel is met by one and missed by the other; and what the plain search decides, the fast one mostly does.
+void expect_agreement(const System& system, const Window& window, const std::string& what, double tolerance = 1. / 16) {
+  const auto fast = set_of(system, window, tolerance), plain = plain::set_pixels(system, window, tolerance);
+  std::int64_t contradictions = 0;
+  for (std::size_t k = 0; k < fast.size(); ++k)
+    contradictions +=
+        (fast[k] == Meets::no && plain[k] == Meets::yes) || (fast[k] == Meets::yes && plain[k] == Meets::no);
+  EXPECT_EQ(contradictions, 0) << what;
+  EXPECT_LE(count(fast, Meets::undecided), count(plain, Meets::undecided) + count(plain, Meets::yes) / 50 + 2) << what;
+}
+
+// A point of it, by a word of each map in turn.
+Vector3 point_of(const System& system) {
+  Vector3 x = fixed_point(system.maps()[static_cast<std::size_t>(system.active()[0])]);
+  for (int k = 0; k < 40; ++k)
+    x = system.maps()[static_cast<std::size_t>(
+        system.active()[static_cast<std::size_t>(k * k) % system.active().size()])](x);
+  return x;
+}
+
+TEST(SetPixels, NeverContradictThePlainSearch) {
+  for (const NamedSystem& named : named_systems()) {
+    if (named.dimension != 2) continue;
+    const auto system = named_system(named.name);
+    const std::string name(named.name);
+    const double size = system->enclosure().axes.norm();
+    const Vector3 point = point_of(*system);
+    Window tall = odd(*system, 61);
+    tall.height = 97;
+    expect_agreement(*system, tall, name + ", whole");
+    expect_agreement(*system, about(point, size / 400, 150, 140), name + ", over several tiles");
+    expect_agreement(*system, about(point, size / 3e3, 40, 30), name + ", a part");
+    expect_agreement(*system, about(point, size / 1e6, 30, 40), name + ", a small part");
+    expect_agreement(*system, about(point + Vector3(3 * size, 0, 0), size / 50, 20, 20), name + ", beside it");
+  }
+}
+
+TEST(SetPixels, NeverContradictThePlainSearchInOddSystems) {
+  struct Case {
+    const char* name;
+    System system;
+  };
+  const Affine half = plane(.5, 0, 0, .5, 0, 0), turned = plane(.3, -.4, .4, .3, 1, 0);
+  for (const auto& [name, system] :
+       {Case{"one map", System(2, {plane(.5, .2, -.2, .5, 1, 3)})},
+        Case{"one constant map", System(2, {plane(0, 0, 0, 0, 1, 3)})},
+        Case{"maps not taken", System(2, {half, turned, plane(.9, 0, 0, .9, 5, 5)}, {1, 2, 0})},
+        Case{"all flat", System(2, {plane(.5, .1, 0, 0, 0, 0), plane(0, 0, .3, .4, 1, 1)})},
+        Case{"a line", System(2, {plane(.5, 0, 0, .5, 0, 0), plane(.5, 0, 0, .5, 1, 1)})},
+        Case{"reflections", System(2, {plane(.6, .1, .1, -.6, 0, 1), plane(-.5, 0, .2, .5, 1, 0), turned})},
+        Case{"one that grows by itself", System(2, {plane(0, 1.2, .3, 0, 0, 0), plane(0, .2, -.3, 0, 1, 1)})},
+        Case{"slow", System(2, {plane(.95, -.2, .2, .95, 0, 0), plane(.1, 0, 0, .1, 1, 0)})}}) {
+    const double size = std::max(system.enclosure().axes.norm(), .1);
+    const Vector3 point = point_of(system);
+    for (const double pixels : {30., 300., 1e5}) expect_agreement(system, about(point, size / pixels, 37, 33), name);
+    const auto states = set_of(system, about(point, size / 300, 37, 33));
+    const Grid grid(about(point, size / 300, 37, 33));
+    EXPECT_NE(states[static_cast<std::size_t>(grid.pixel(point(0), point(1)))], Meets::no) << name;
+  }
+}
+
+TEST(SetPixels, AreTheSameOnEveryVectorTarget) {
+  for (const char* name : {"fern", "gasket_right", "fern_cyclosorus", "levy", "tree_type2"}) {
+    const auto system = named_system(name);
+    const Window whole = odd(*system, 200),
+                 part = about(point_of(*system), system->enclosure().axes.norm() / 1e4, 150, 100);
+    const auto best = set_of(*system, whole), best_of_part = set_of(*system, part);
+    int targets = 0;
+    for (std::int64_t every = hwy::SupportedTargets(), lowest = 0; every != 0; every &= every - 1) {
+      lowest = every & -every;
+      hwy::SetSupportedTargetsForTest(lowest);
+      ++targets;
+      EXPECT_EQ(set_of(*system, whole), best) << name << " " << hwy::TargetName(lowest);
+      EXPECT_EQ(set_of(*system, part), best_of_part) << name << " " << hwy::TargetName(lowest);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    EXPECT_GE(targets, 2) << "nothing was compared";
+  }
 }
 
 TEST(SetPixels, RefuseTolerancesByName) {

@@ -1,0 +1,46 @@
+// An attractor in the pixels of a window: across from its left edge, down from its upper one. What set_pixels and its
+// plain version search.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "raster/chaos.h"
+#include "system/system.h"
+
+namespace ifsm::core {
+
+// x → M x + t of the plane. Affine's without what is zero in the plane: a third of the products, in the innermost loop.
+struct Piece {
+  double a, b, c, d, e, f;
+
+  friend Piece operator*(const Piece& p, const Piece& q) {
+    return {p.a * q.a + p.b * q.c, p.a * q.b + p.b * q.d,       p.c * q.a + p.d * q.c,
+            p.c * q.b + p.d * q.d, p.a * q.e + p.b * q.f + p.e, p.c * q.e + p.d * q.f + p.f};
+  }
+};
+
+// A point for each eighth of the directions; that of (a, b) is number (a < 0) + 2 (b < 0) + 4 (|b| > |a|).
+struct Eight {
+  alignas(64) std::array<double, 8> x, y;
+};
+
+struct InPixels {
+  InPixels(const System& system, const Window& window);
+
+  // Active maps, about the middle of the attractor's box.
+  std::vector<Piece> maps;
+  // Takes the box's middle from the origin to where it is in the window.
+  Piece whole;
+  // Corners of an octagon about the attractor, whose sides lie along the axes and the diagonals: of the direction's
+  // eighth, the farthest. From the box's middle, as all of these.
+  Eight corners;
+  Eight points;                // of the attractor, that lie far out there
+  std::array<double, 2> half;  // of the box
+  // Of coordinates of a point of a word's piece, at most, words of longest_word maps included.
+  double rounding;
+
+  static constexpr int longest_word = 4096;
+};
+
+}  // namespace ifsm::core

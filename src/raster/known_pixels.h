@@ -1,0 +1,38 @@
+// What is known already of a square of pixels, so that pieces that lie in known pixels need not be looked into.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace ifsm::core {
+
+// One byte a pixel: in its low four bits the side of the largest square of known pixels that begins there, to the right
+// and down; in its high ones how many from there down are known; both up to 15, and perhaps too small near pixels that
+// were added since all were counted. Pixels beyond the tile are known. Four neighbouring bytes, read at once, tell of
+// all boxes up to four pixels wide.
+class KnownPixels {
+ public:
+  static constexpr std::size_t side = 128;          // its bytes stay in a first-level cache
+  static constexpr std::size_t stride = side + 64;  // vectors read the pixel to the right of their last
+  static constexpr int most = 15, run_unit = 16;
+
+  // known: side · side bytes, row by row, each 1 or 0.
+  explicit KnownPixels(const std::uint8_t* known);
+
+  // Makes it known.
+  void add(std::size_t column, std::size_t row);
+
+  bool is_known(std::size_t column, std::size_t row) const { return bytes_[row * stride + column] != 0; }
+  const std::uint8_t* bytes() const { return bytes_.data(); }
+
+ private:
+  void renew(std::size_t column, std::size_t row);
+  void count();
+
+  std::vector<std::uint8_t> bytes_;
+  std::vector<std::uint8_t> squares_;
+  int added_ = 0;  // since all were counted
+};
+
+}  // namespace ifsm::core
