@@ -1638,7 +1638,8 @@ typedef struct ifsm_picture_report {
  * report    [out] with struct_size set
  * counts    [out] width × height counts, which stay at 2^32 - 1
  *
- * Memory: a quarter more than the counts'. Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, SHAPE (not in the plane),
+ * Memory: a quarter more than the counts' (small windows: up to 80 MB). Windows above 2^23 pixels are counted in the array
+ * itself: after CANCELLED or MEMORY it holds anything. Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, SHAPE (not in the plane),
  * NUMERICAL, OPTIONS, CAPACITY, CANCELLED, MEMORY. Any thread; the callback runs on this one. Source: M. Barnsley, Fractals
  * Everywhere, 1988; docs/systems.md. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_histogram(ifsm_system system, const ifsm_picture_options *options,

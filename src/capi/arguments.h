@@ -60,7 +60,8 @@ Output<T> output(T* data, std::int64_t capacity, const char* argument) {
   return {data, capacity, argument};
 }
 
-// How values reach the caller's array: contiguous ones here, other types beside their C functions. Cannot fail.
+// How values reach the caller's array: contiguous ones here, other types beside their C functions. Cannot fail, but for
+// what the header says is made in the array itself.
 template <class Range, class T>
 void copy_out(const Range& values, std::int64_t count, T* to) {
   std::copy_n(values.data(), count, to);

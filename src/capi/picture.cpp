@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,22 @@ inline void copy_out(const Picture& picture, std::int64_t, std::uint8_t* to) {
 
 inline void copy_out(const std::vector<Meets>& pixels, std::int64_t, std::uint8_t* to) {
   for (const Meets each : pixels) *to++ = static_cast<std::uint8_t>(each);
+}
+
+// A histogram to be: it is counted where it goes, when that is known to have room.
+struct Counting {
+  SystemPtr system;
+  Window window;
+  std::uint64_t seed;
+  std::int64_t points;
+  Watch* watch;
+  ifsm_picture_report* told;
+};
+
+inline void copy_out(const Counting& game, std::int64_t count, std::uint32_t* to) {
+  const std::span<std::uint32_t> counts(to, static_cast<std::size_t>(count));
+  game.told->inside = count_in_place(*game.system, game.window, game.seed, game.points, counts, *game.watch);
+  game.told->met = std::count_if(counts.begin(), counts.end(), [](std::uint32_t c) { return c > 0; });
 }
 
 }  // namespace ifsm::core
@@ -253,10 +270,7 @@ ifsm_status ifsm_system_histogram(ifsm_system handle, const ifsm_picture_options
     draw_into(request, window, 1, report, output(counts, capacity, "counts"), count,
               [&](Watch& watch, ifsm_picture_report& told) {
                 told.points = request.points(request.pixels() * points_a_pixel);
-                Counts drawn = chaos_counts(*system, window, request.seed(), told.points, watch);
-                told.inside = drawn.inside;
-                told.met = std::count_if(drawn.pixels.begin(), drawn.pixels.end(), [](uint32_t c) { return c > 0; });
-                return std::move(drawn.pixels);
+                return Counting{system, window, request.seed(), told.points, &watch, &told};
               });
   });
 }

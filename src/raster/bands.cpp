@@ -22,8 +22,8 @@ std::unique_ptr<Number[]> room_for(std::int64_t count) {
 
 }  // namespace
 
-Bands::Bands(std::vector<std::uint32_t> counts, std::int64_t pieces, std::int64_t groups)
-    : counts_(std::move(counts)), bands_((counts_.size() >> band_bits) + 1) {
+Bands::Bands(std::span<std::uint32_t> counts, std::int64_t pieces, std::int64_t groups)
+    : counts_(counts), bands_((counts_.size() >> band_bits) + 1) {
   // A line more than there are bands, so that the slots' starts of one band are not all in the same set of a cache.
   constexpr std::size_t line = 64 / sizeof(std::uint32_t);
   stride_ = bands_ + 1 + line;

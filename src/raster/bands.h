@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "base/cancel.h"
@@ -18,9 +17,9 @@ class Bands {
   // Pixels at once; two bytes each when they are sorted. Fewer have shorter runs of one band, each far from the next.
   static constexpr std::int64_t piece = 1 << 19;
 
-  // Adds to the counts. For `pieces` in all, of `groups` that sort at the same time, if memory allows: what is beside
+  // Adds to the counts, which stay where they are. For `pieces` in all, of `groups` that sort at the same time, if memory allows: what is beside
   // the counts takes a quarter of theirs at most, or what makes it 80 MB with them.
-  Bands(std::vector<std::uint32_t> counts, std::int64_t pieces, std::int64_t groups);
+  Bands(std::span<std::uint32_t> counts, std::int64_t pieces, std::int64_t groups);
 
   std::int64_t groups() const { return groups_; }
   std::int64_t slots() const { return slots_; }
@@ -34,8 +33,6 @@ class Bands {
   // Adds all that was sorted, on many threads, and empties the slots. Counts saturate at 2^32 - 1.
   void add(Watch& watch);
 
-  std::vector<std::uint32_t> take() && { return std::move(counts_); }
-
  private:
   using Small = std::uint16_t;  // a place within a band
 
@@ -43,7 +40,7 @@ class Bands {
   std::uint32_t* starts(std::int64_t slot) { return starts_.get() + static_cast<std::size_t>(slot) * stride_; }
   Small* sorted(std::int64_t slot) { return sorted_.get() + slot * piece; }
 
-  std::vector<std::uint32_t> counts_;
+  std::span<std::uint32_t> counts_;
   std::size_t bands_, stride_;
   std::int64_t groups_, slots_;
   std::unique_ptr<std::int32_t[]> rooms_;

@@ -122,7 +122,7 @@ std::int64_t play(const Game<double>& game, std::int64_t chunk, std::span<std::i
 }
 
 // Of all histograms together, below which memory is no matter: 80 MB.
-constexpr std::int64_t small_pixels = 1 << 24;
+constexpr std::int64_t small_pixels = 2 * counted_in_place;
 
 std::int64_t most_groups() { return std::max(std::int64_t{std::thread::hardware_concurrency()}, std::int64_t{1}); }
 
@@ -154,22 +154,19 @@ Counts in_histograms(const Game<Real>& game, Watch& watch, const Play& play) {
 }
 
 // All pages of large memory are asked for here, which may take seconds: not without a poll.
-std::vector<std::uint32_t> zeros(std::int64_t pixels, const Watch& watch) {
+void clear(std::span<std::uint32_t> counts, const Watch& watch) {
   constexpr std::size_t at_once = 1 << 24;
-  const auto size = static_cast<std::size_t>(pixels);
-  std::vector<std::uint32_t> counts;
-  counts.reserve(size);
-  while (counts.size() < size) {
+  for (std::size_t first = 0; first < counts.size(); first += at_once) {
     watch.poll();
-    counts.resize(std::min(counts.size() + at_once, size));
+    std::ranges::fill(counts.subspan(first, std::min(at_once, counts.size() - first)), 0U);
   }
-  return counts;
 }
 
 // Rounds of chunks are sorted, and then added.
-Counts in_bands(const Game<double>& game, Watch& watch) {
+std::int64_t in_bands(const Game<double>& game, std::span<std::uint32_t> counts, Watch& watch) {
   constexpr std::int64_t pieces = points_per_chunk / Bands::piece;  // a chunk
-  Bands bands(zeros(game.window.pixels(), watch), pieces * game.chunks(), most_groups());
+  clear(counts, watch);
+  Bands bands(counts, pieces * game.chunks(), most_groups());
   const std::int64_t round = bands.slots() / pieces;
   std::vector<std::int64_t> inside(static_cast<std::size_t>(bands.groups()), 0);
   const auto fraction = [&](double chunks) { return chunks / static_cast<double>(game.chunks()); };
@@ -190,7 +187,7 @@ Counts in_bands(const Game<double>& game, Watch& watch) {
     bands.add(adding);
   }
   watch.finish();
-  return {std::move(bands).take(), std::accumulate(inside.begin(), inside.end(), std::int64_t{0})};
+  return std::accumulate(inside.begin(), inside.end(), std::int64_t{0});
 }
 
 void require(const System& system, const Window& window, std::int64_t points) {
@@ -233,17 +230,30 @@ bool single_precision_suffices(const System& system, const Window& window) {
 
 Counts chaos_counts(const System& system, const Window& window, std::uint64_t seed, std::int64_t points, Watch& watch) {
   require(system, window, points);
-  const bool large = window.pixels() > small_pixels / 2;  // a single histogram, so a single thread
-  if (!large && single_precision_suffices(system, window)) {
+  if (window.pixels() > counted_in_place) {
+    Counts counts{std::vector<std::uint32_t>(static_cast<std::size_t>(window.pixels())), 0};
+    counts.inside = count_in_place(system, window, seed, points, counts.pixels, watch);
+    return counts;
+  }
+  if (single_precision_suffices(system, window)) {
     const Game<float> game(system, window, seed, points);
     return in_histograms(game, watch, [&](std::int64_t chunk, Histogram& all) { return play(game, chunk, all); });
   }
   const Game<double> game(system, window, seed, points);
-  if (large) return in_bands(game, watch);
   return in_histograms(game, watch, [&](std::int64_t chunk, Histogram& all) {
     std::array<std::int32_t, Histogram::most_at_once + beyond_pixels> room;
     return play(game, chunk, room, [&](std::span<const std::int32_t> pixels) { all.count(pixels); });
   });
+}
+
+std::int64_t count_in_place(const System& system, const Window& window, std::uint64_t seed, std::int64_t points,
+                            std::span<std::uint32_t> counts, Watch& watch) {
+  require(system, window, points);
+  // In histograms these would leave a single thread.
+  if (window.pixels() > counted_in_place) return in_bands(Game<double>(system, window, seed, points), counts, watch);
+  const Counts made = chaos_counts(system, window, seed, points, watch);
+  std::ranges::copy(made.pixels, counts.begin());
+  return made.inside;
 }
 
 Counts plain::chaos_counts(const System& system, const Window& window, std::uint64_t seed, std::int64_t points) {

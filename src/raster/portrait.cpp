@@ -177,7 +177,7 @@ class Nearest {
     const std::int64_t pixel = grid_.pixel(seen.x, seen.y);
     inside_ += pixel < static_cast<std::int64_t>(seen_.size()) - 1 ? 1 : 0;
     const double farness = std::clamp(1 - seen.nearness, 0.0, 1.0) * farthest;
-    const std::uint64_t key = static_cast<std::uint64_t>(farness) << 32 | number;
+    const std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::int64_t>(farness)) << 32 | number;
     std::uint64_t& kept = seen_[static_cast<std::size_t>(pixel)];
     kept = std::min(kept, key);
   }

@@ -13,6 +13,7 @@ View::View(const Direction& direction, const Ball& ball)
               std::cos(direction.elevation) * std::sin(direction.azimuth), std::sin(direction.elevation)),
       centre_(ball.centre),
       radius_(std::max(ball.radius, std::numeric_limits<double>::min())),
+      half_per_radius_(.5 / radius_),
       per_distance_(std::sin(direction.field / 2) / radius_),
       reach_(radius_ / std::cos(direction.field / 2)) {
   up_ = toward_.cross(right_);

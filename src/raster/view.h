@@ -26,7 +26,7 @@ class View {
   Seen operator()(double x, double y, double z) const {
     const Vector3 q = Vector3(x, y, z) - centre_;
     const double toward = toward_.dot(q), scale = 1 / (1 - toward * per_distance_);
-    return {right_.dot(q) * scale, up_.dot(q) * scale, (toward + radius_) / (2 * radius_), toward * per_distance_ < 1};
+    return {right_.dot(q) * scale, up_.dot(q) * scale, toward * half_per_radius_ + .5, toward * per_distance_ < 1};
   }
 
   // Half the side of a square, around 0, in which all of the ball is seen.
@@ -34,7 +34,7 @@ class View {
 
  private:
   Vector3 right_, up_, toward_, centre_;
-  double radius_, per_distance_, reach_;
+  double radius_, half_per_radius_, per_distance_, reach_;
 };
 
 // Width over height as the pixels', so that they are squares; the box in its middle, with some margin.
