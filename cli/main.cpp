@@ -45,7 +45,7 @@ int run(int argc, char** argv) {
   program.footer(footer);
   for (const auto add :
        {cli::add_fit, cli::add_info, cli::add_synth, cli::add_eval, cli::add_plot, cli::add_measure, cli::add_nearest,
-        cli::add_refine, cli::add_deform, cli::add_train, cli::add_render, cli::add_convert})
+        cli::add_refine, cli::add_deform, cli::add_train, cli::add_render, cli::add_convert, cli::add_systems})
     add(program, session);
   cli::check_command(program, argc, argv);
   try {

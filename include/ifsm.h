@@ -1596,7 +1596,8 @@ typedef struct ifsm_picture_options {
   double right;
   double top;
   uint64_t seed;   /* other seeds, other points */
-  int64_t points;  /* how many the chaos game plays; 0: 16 a pixel that is computed, in space 32; ifsm_system_sample: 65536 */
+  int64_t points;  /* how many the chaos game plays; 0: so that 16 a computed pixel fall into the window, but at most 64 times
+                       that; in space 32 a pixel; ifsm_system_sample: 65536 */
   double tolerance; /* of sets and distances, in pixels, up to 1; 0: 1/64 of sets, 1/8 of distances */
   int32_t colour;   /* IFSM_COLOUR_… */
   int32_t palette;  /* IFSM_PALETTE_… */

@@ -31,6 +31,7 @@ void add_refine(CLI::App& program, Session& session);
 void add_deform(CLI::App& program, Session& session);
 void add_render(CLI::App& program, Session& session);
 void add_convert(CLI::App& program, Session& session);
+void add_systems(CLI::App& program, Session& session);
 
 // ---- options that several commands share
 

@@ -211,7 +211,9 @@ void add_render(CLI::App& program, Session& session) {
   command->add_option("--symbols", a.options.symbols, "Of addresses, so many symbols (default: all)")
       ->transform(whole_number(1, 16));
   command->add_option("--background", a.background, "#rrggbb, #rrggbbaa, white, black")->capture_default_str();
-  command->add_option("--points", a.points, "Points to play (default: 16 a pixel, in space 32; of a file 100000)")
+  command
+      ->add_option("--points", a.points,
+                   "Points to play (default: enough for 16 a pixel, in space 32; of a file 100000)")
       ->transform(whole_number(1, std::uint64_t{1} << 50));
   command->add_option("--seed", a.options.seed, "Another seed, other points")
       ->transform(whole_number(0, std::numeric_limits<std::uint64_t>::max()))

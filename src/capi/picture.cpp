@@ -128,6 +128,7 @@ class Request {
   uint64_t seed() const { return read_.seed; }
   Shows shows() const { return shows_; }
   const Palette& colours() const { return *palette_; }
+  bool has_own_window() const { return has_window(read_); }
   Direction direction() const { return {read_.azimuth, read_.elevation, read_.field}; }
   Watch watch() const { return Watch(token_.get(), progress_of(read_)); }
   int64_t points(int64_t otherwise) const { return read_.points == 0 ? otherwise : read_.points; }
@@ -227,6 +228,12 @@ Window finer(Window window, int64_t times) {
   return window;
 }
 
+int64_t points_of(const System& system, const Request& request, bool of_space, const Window& window, Watch& watch) {
+  if (of_space) return request.points(window.pixels() * points_a_pixel_of_space);
+  if (request.points(0) != 0 || !request.has_own_window()) return request.points(window.pixels() * points_a_pixel);
+  return points_for(system, window, request.seed(), points_a_pixel, watch);
+}
+
 Picture drawn(const System& system, const Request& request, const std::optional<View>& view, const Window& window,
               Watch& watch, ifsm_picture_report& told) {
   if (request.shows() == Shows::set) {
@@ -238,8 +245,7 @@ Picture drawn(const System& system, const Request& request, const std::optional<
     const auto found = distances(system, window, request.tolerance(usual_distance_tolerance), watch);
     return distance_picture(found, pixel_of(window), request.colours());
   }
-  const int64_t a_pixel = view ? points_a_pixel_of_space : points_a_pixel;
-  told.points = request.points(window.pixels() * a_pixel);
+  told.points = points_of(system, request, view.has_value(), window, watch);
   Portrait portrait = view ? space_portrait(system, *view, window, request.look(), request.seed(), told.points, watch)
                            : plane_portrait(system, window, request.look(), request.seed(), told.points, watch);
   told.inside = portrait.inside;
@@ -269,7 +275,7 @@ ifsm_status ifsm_system_histogram(ifsm_system handle, const ifsm_picture_options
     const Window window = request.plane_window(*system);
     draw_into(request, window, 1, report, output(counts, capacity, "counts"), count,
               [&](Watch& watch, ifsm_picture_report& told) {
-                told.points = request.points(request.pixels() * points_a_pixel);
+                told.points = points_of(*system, request, false, window, watch);
                 return Counting{system, window, request.seed(), told.points, &watch, &told};
               });
   });

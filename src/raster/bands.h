@@ -17,8 +17,8 @@ class Bands {
   // Pixels at once; two bytes each when they are sorted. Fewer have shorter runs of one band, each far from the next.
   static constexpr std::int64_t piece = 1 << 19;
 
-  // Adds to the counts, which stay where they are. For `pieces` in all, of `groups` that sort at the same time, if memory allows: what is beside
-  // the counts takes a quarter of theirs at most, or what makes it 80 MB with them.
+  // Adds to the counts, which stay where they are. For `pieces` in all, of `groups` that sort at the same time, if
+  // memory allows: what is beside the counts takes a quarter of theirs at most, or what makes it 80 MB with them.
   Bands(std::span<std::uint32_t> counts, std::int64_t pieces, std::int64_t groups);
 
   std::int64_t groups() const { return groups_; }

@@ -56,8 +56,8 @@ struct Counts {
 // counts, takes a quarter of their memory, or what makes it 80 MB with them.
 Counts chaos_counts(const System& system, const Window& window, std::uint64_t seed, std::int64_t points, Watch& watch);
 
-// The same, counted where the caller wants them: a window that no cache holds takes no second array of its size. Written
-// to from the beginning; after Cancelled or bad_alloc, anything may be there. Tells how many points are inside.
+// The same, counted where the caller wants them: a window that no cache holds takes no second array of its size.
+// Written to from the beginning; after Cancelled or bad_alloc, anything may be there. Tells how many points are inside.
 std::int64_t count_in_place(const System& system, const Window& window, std::uint64_t seed, std::int64_t points,
                             std::span<std::uint32_t> counts, Watch& watch);
 // Above so many pixels nothing else is done.

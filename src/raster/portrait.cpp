@@ -218,6 +218,16 @@ void require_points(std::int64_t points) { in_range(points, 1, std::int64_t{1} <
 
 }  // namespace
 
+std::int64_t points_for(const System& system, const Window& window, std::uint64_t seed, std::int64_t a_pixel,
+                        Watch& watch) {
+  constexpr std::int64_t asked = 1 << 20, most_times = 64;
+  Window whole = window;
+  whole.width = whole.height = 1;
+  Watch part = watch.part(0, 0);
+  const std::int64_t inside = std::max<std::int64_t>(chaos_counts(system, whole, seed, asked, part).inside, 1);
+  return window.pixels() * a_pixel * std::min((asked + inside - 1) / inside, most_times);
+}
+
 Portrait plane_portrait(const System& system, const Window& window, const Look& look, std::uint64_t seed,
                         std::int64_t points, Watch& watch) {
   require_plane(system);

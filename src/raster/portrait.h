@@ -26,6 +26,11 @@ struct Portrait {
   std::int64_t met = 0;     // pixels that were hit
 };
 
+// How many points to play for so many a pixel in the window, of which a part of them falls into: 2^20 are asked, and at
+// most 64 times as many are played as there would be if all fell there.
+std::int64_t points_for(const System& system, const Window& window, std::uint64_t seed, std::int64_t a_pixel,
+                        Watch& watch);
+
 // A plane system in a window. The same seed gives the same picture on any number of threads.
 Portrait plane_portrait(const System& system, const Window& window, const Look& look, std::uint64_t seed,
                         std::int64_t points, Watch& watch);
