@@ -187,8 +187,10 @@ std::vector<double> distances(const System& system, const Window& window, double
                                 (window.top - window.bottom) / static_cast<double>(window.height));
   // Rounding of coordinates, with room for the words' products.
   constexpr double rounding = 0x1p-44;
+  const double far =
+      std::max({std::abs(window.left), std::abs(window.right), std::abs(window.bottom), std::abs(window.top)});
   const double least =
-      rounding * (system.enclosure().axes.norm() + system.enclosure().centre.cwiseAbs().maxCoeff()) / pixel;
+      rounding * (system.enclosure().axes.norm() + system.enclosure().centre.cwiseAbs().maxCoeff() + far) / pixel;
   if (!(tolerance > least && tolerance <= 1))
     throw Error(Status::range, "tolerance",
                 "tolerance is " + text_of(tolerance) + " of a pixel; give one above " + text_of(least) +
