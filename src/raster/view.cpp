@@ -12,7 +12,7 @@ View::View(const Direction& direction, const Ball& ball)
       toward_(std::cos(direction.elevation) * std::cos(direction.azimuth),
               std::cos(direction.elevation) * std::sin(direction.azimuth), std::sin(direction.elevation)),
       centre_(ball.centre),
-      radius_(std::max(ball.radius, std::numeric_limits<double>::min())),
+      radius_(ball.radius > 0 ? ball.radius : 1),  // a point: any scale is as good
       half_per_radius_(.5 / radius_),
       per_distance_(std::sin(direction.field / 2) / radius_),
       reach_(radius_ / std::cos(direction.field / 2)) {

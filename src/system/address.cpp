@@ -96,7 +96,8 @@ std::vector<std::vector<std::int64_t>> addresses_of(const System& system, const 
   in_range(length, 1, longest, "length");
   constexpr double least = 0x1p-44;  // of the attractor's size: what rounding leaves of it
   const double size = system.enclosure().axes.norm();
-  if (!(tolerance > least * size) || !std::isfinite(tolerance))
+  const bool kept = tolerance > least * size || (size == 0 && tolerance == 0);  // the origin alone: nothing is rounded
+  if (!kept || !std::isfinite(tolerance))
     throw Error(Status::range, "tolerance",
                 "tolerance is " + text_of(tolerance) + "; give a finite one above " + text_of(least * size) +
                     ", 2^-44 of the attractor's size.")

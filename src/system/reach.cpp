@@ -36,7 +36,9 @@ class Search {
   Search(const System& system, double tolerance)
       : middle_(system.enclosure().centre), axes_{Vector3::Zero(), system.enclosure().axes}, size_(axes_.axes.norm()) {
     constexpr double least = 0x1p-44;
-    if (!(tolerance > least * size_) || !std::isfinite(tolerance))
+    // The origin alone has no size, nor is anything rounded there: no tolerance is too small.
+    const bool kept = tolerance > least * size_ || (size_ == 0 && tolerance == 0);
+    if (!kept || !std::isfinite(tolerance))
       throw Error(Status::range, "tolerance",
                   "tolerance is " + text_of(tolerance) + "; give a finite one above " + text_of(least * size_) +
                       ", 2^-44 of the attractor's size.")

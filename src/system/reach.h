@@ -17,8 +17,8 @@ struct Ball {
 };
 
 // All results lie above the exact value and pass it by at most `tolerance`, in the attractor's units; rounding
-// included. A range error when the tolerance is not above 2^-44 of the attractor's size, a limit error when it takes
-// too many pieces.
+// included. A range error when the tolerance is not above 2^-44 of the attractor's size (of the origin alone, which has
+// none, 0 will do), a limit error when it takes too many pieces.
 
 // The largest direction·x of the attractor's points, for a unit vector.
 double reach(const System& system, const Vector3& direction, double tolerance);

@@ -111,4 +111,10 @@ TEST(AddressesOf, EndWithAnErrorWhereThereAreTooMany) {
   }
 }
 
+TEST(AddressesOf, TheOriginAloneAreThoseOfAllWords) {
+  const System origin(2, {plane(.5, 0, 0, .5, 0, 0), plane(.2, .1, 0, .5, 0, 0)});
+  EXPECT_EQ(addresses_of(origin, Vector3::Zero(), 2, 0, 100).size(), 4U);
+  EXPECT_TRUE(addresses_of(origin, Vector3(1e-100, 0, 0), 2, 0, 100).empty());
+}
+
 }  // namespace

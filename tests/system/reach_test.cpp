@@ -155,4 +155,19 @@ TEST(EnclosingBall, HoldsAllPoints) {
   for (const Vector3& x : points_of(*fern, 8)) EXPECT_LE((x - ball.centre).norm(), ball.radius);
 }
 
+TEST(BoundingBox, OfTheOriginAloneTakesATolerance) {
+  for (const int dimension : {2, 3}) {
+    Affine half = Affine::identity(dimension);
+    half.linear /= 2;
+    const System origin(dimension, {half});
+    // Its size is 0, and so is a share of that.
+    EXPECT_EQ(bounding_box(origin, 0), (Box{Vector3::Zero(), Vector3::Zero()}));
+    EXPECT_EQ(enclosing_ball(origin, 0).radius, 0);
+    EXPECT_EQ(diameter(origin, 0), 0);
+    EXPECT_EQ(farthest(origin, Vector3::Zero(), 0), 0);
+    EXPECT_NEAR(farthest(origin, Vector3::UnitX(), 1e-6), 1, 1e-6);
+    EXPECT_EQ(refusal([&] { bounding_box(origin, -1); }).argument(), "tolerance");
+  }
+}
+
 }  // namespace
