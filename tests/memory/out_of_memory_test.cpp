@@ -39,6 +39,9 @@ struct World {
   std::vector<std::uint8_t> edits;  // that one
   std::vector<double> samples, matrix, details, polygon;
   std::vector<std::uint8_t> json, cbor;
+  ifsm_system system{}, space{};          // a gasket, a tetrahedron
+  std::vector<double> maps;               // the gasket's
+  std::vector<std::uint8_t> system_file;  // the gasket's, too
   std::vector<double> room = std::vector<double>(4096);
   std::vector<std::uint8_t> byte_room = std::vector<std::uint8_t>(1 << 18);
   ifsm_curve curve{};
@@ -61,6 +64,7 @@ ifsm_status drop_filter(std::uint64_t id) { return ifsm_filter_destroy({id}); }
 ifsm_status drop_model(std::uint64_t id) { return ifsm_model_destroy({id}); }
 ifsm_status drop_fit(std::uint64_t id) { return ifsm_fit_destroy({id}); }
 ifsm_status drop_deformer(std::uint64_t id) { return ifsm_deformer_destroy({id}); }
+ifsm_status drop_system(std::uint64_t id) { return ifsm_system_destroy({id}); }
 
 template <class Handle>
 Handle* as(std::uint64_t* made) {
@@ -191,6 +195,65 @@ ifsm_status refine(World& world, std::uint64_t* made) {
   options.struct_size = sizeof options;
   options.levels = 5;  // enough places to share among threads
   return ifsm_model_refine(world.model, &options, as<ifsm_model>(made));
+}
+
+constexpr std::int64_t room_count = 4096;
+
+// Small, and of few points.
+ifsm_picture_options small_picture(std::int32_t colour) {
+  ifsm_picture_options options{};
+  options.struct_size = sizeof options;
+  options.width = 8;
+  options.points = 3000;
+  options.colour = colour;
+  return options;
+}
+
+ifsm_status render(World& world, ifsm_system system, std::int32_t colour) {
+  const ifsm_picture_options options = small_picture(colour);
+  ifsm_picture_report report{};
+  report.struct_size = sizeof report;
+  std::int64_t count = 0;
+  return ifsm_system_render(system, &options, &report, world.byte_room.data(), 256, &count);
+}
+
+ifsm_status histogram(World& world, std::uint64_t*) {
+  const ifsm_picture_options options = small_picture(0);
+  ifsm_picture_report report{};
+  report.struct_size = sizeof report;
+  std::uint32_t counts[64];
+  std::int64_t count = 0;
+  return ifsm_system_histogram(world.system, &options, &report, counts, 64, &count);
+}
+
+ifsm_status set(World& world, std::uint64_t*) {
+  const ifsm_picture_options options = small_picture(0);
+  ifsm_picture_report report{};
+  report.struct_size = sizeof report;
+  std::int64_t count = 0;
+  return ifsm_system_set(world.system, &options, &report, world.byte_room.data(), 64, &count);
+}
+
+ifsm_status picture_distances(World& world, std::uint64_t*) {
+  const ifsm_picture_options options = small_picture(0);
+  ifsm_picture_report report{};
+  report.struct_size = sizeof report;
+  std::int64_t count = 0;
+  return ifsm_system_distances(world.system, &options, &report, world.room.data(), 64, &count);
+}
+
+ifsm_status sample_addresses(World& world, std::uint64_t*) {
+  ifsm_picture_options options = small_picture(0);
+  options.points = 100;
+  std::int32_t symbols[300];
+  std::int64_t count = 0;
+  return ifsm_system_sample_addresses(world.system, &options, 3, symbols, 300, &count);
+}
+
+ifsm_status save_system(World& world, std::int32_t format) {
+  std::int64_t count = 0;
+  return ifsm_system_save(world.system, format, "gasket", world.byte_room.data(),
+                          static_cast<std::int64_t>(world.byte_room.size()), &count);
 }
 
 // World handed in, handle or nothing handed out.
@@ -445,6 +508,186 @@ const Scenario scenarios[] = {
     {"fit_sparse", "ifsm_fit_sparse", 1, 1, fit_small, drop_fit},
     {"fit_sparse_polished", "ifsm_fit_sparse", 1, 7, fit_polished, drop_fit},
     {"train", "ifsm_train", 1, 7, train_small, drop_filter},
+    {"system_create", "ifsm_system_create", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_system_create(2, world.maps.data(), 18, nullptr, 0, as<ifsm_system>(made));
+     },
+     drop_system},
+    {"system_from_parameters", "ifsm_system_from_parameters", 1, 1,
+     [](World&, std::uint64_t* made) {
+       const double parameters[] = {.3, .5, .5, .1, 1, 0, -.3, .4, .3, 0, 0, 1}, weights[] = {1, 2};
+       return ifsm_system_from_parameters(2, parameters, 12, weights, 2, as<ifsm_system>(made));
+     },
+     drop_system},
+    {"system_named", "ifsm_system_named", 1, 1,
+     [](World&, std::uint64_t* made) { return ifsm_system_named("fern", as<ifsm_system>(made)); }, drop_system},
+    {"system_named_in_space", "ifsm_system_named", 1, 7,
+     [](World&, std::uint64_t* made) { return ifsm_system_named("sponge", as<ifsm_system>(made)); }, drop_system},
+    {"system_from_model", "ifsm_system_from_model", 1, 1,
+     [](World& world, std::uint64_t* made) { return ifsm_system_from_model(world.model, as<ifsm_system>(made)); },
+     drop_system},
+    {"model_from_system", "ifsm_model_from_system", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_model_from_system(world.system, IFSM_TOPOLOGY_SQUARE, nullptr, 3, as<ifsm_model>(made));
+     },
+     drop_model},
+    {"system_maps", "ifsm_system_maps", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_system_maps(world.system, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_parameters", "ifsm_system_parameters", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_system_parameters(world.space, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_probabilities", "ifsm_system_probabilities", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_system_probabilities(world.system, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_fixed_points", "ifsm_system_fixed_points", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_system_fixed_points(world.system, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_word", "ifsm_system_word", 1, 1,
+     [](World& world, std::uint64_t*) {
+       const std::int32_t symbols[] = {0, 1, 2};
+       std::int64_t count = 0;
+       return ifsm_system_word(world.system, symbols, 3, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_point", "ifsm_system_point", 1, 1,
+     [](World& world, std::uint64_t*) {
+       const std::int32_t symbols[] = {0, 1, 2};
+       std::int64_t count = 0;
+       return ifsm_system_point(world.system, symbols, 3, 2, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_addresses", "ifsm_system_addresses", 1, 1,
+     [](World& world, std::uint64_t*) {
+       const double point[] = {.5, 0};
+       std::int32_t symbols[6];
+       std::int64_t count = 0;
+       return ifsm_system_addresses(world.system, point, 2, 3, 0, symbols, 6, &count);
+     },
+     drop_nothing},
+    {"system_box", "ifsm_system_box", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_system_box(world.system, .01, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_ball", "ifsm_system_ball", 1, 311,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_system_ball(world.system, .1, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_diameter", "ifsm_system_diameter", 1, 5,
+     [](World& world, std::uint64_t*) {
+       double across = 0;
+       return ifsm_system_diameter(world.system, .1, &across);
+     },
+     drop_nothing},
+    {"system_moments", "ifsm_system_moments", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_system_moments(world.system, 3, nullptr, 0, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_similarity_dimension", "ifsm_system_similarity_dimension", 1, 1,
+     [](World& world, std::uint64_t*) {
+       double dimension = 0;
+       return ifsm_system_similarity_dimension(world.system, &dimension);
+     },
+     drop_nothing},
+    {"system_box_dimension", "ifsm_system_box_dimension", 1, 1,
+     [](World& world, std::uint64_t*) {
+       ifsm_dimension_report report{};
+       report.struct_size = sizeof report;
+       std::int64_t count = 0;
+       return ifsm_system_box_dimension(world.system, 6, &report, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_save_json", "ifsm_system_save", 1, 1,
+     [](World& world, std::uint64_t*) { return save_system(world, IFSM_FORMAT_JSON); }, drop_nothing},
+    {"system_save_fractint", "ifsm_system_save", 1, 1,
+     [](World& world, std::uint64_t*) { return save_system(world, IFSM_FORMAT_FRACTINT); }, drop_nothing},
+    {"system_load_json", "ifsm_system_load", 1, 1,
+     [](World& world, std::uint64_t* made) {
+       return ifsm_system_load(world.system_file.data(), static_cast<std::int64_t>(world.system_file.size()), nullptr,
+                               as<ifsm_system>(made));
+     },
+     drop_system},
+    {"system_load_fractint", "ifsm_system_load", 1, 1,
+     [](World&, std::uint64_t* made) {
+       const char text[] = "one { .5 0 0 .5 1 2 1 }\ntwo { .25 0 0 .25 0 0 .5\n 0 .5 .5 0 3 4 .5 }\n";
+       return ifsm_system_load(reinterpret_cast<const std::uint8_t*>(text), sizeof text - 1, "two",
+                               as<ifsm_system>(made));
+     },
+     drop_system},
+    {"system_load_flame", "ifsm_system_load", 1, 1,
+     [](World&, std::uint64_t* made) {
+       const char text[] =
+           "<flame name=\"f\"><xform weight=\"1\" linear=\"1\" coefs=\".5 0 0 .5 0 0\"/>"
+           "<xform weight=\"1\" linear=\"1\" coefs=\".5 0 0 .5 1 0\"/></flame>";
+       return ifsm_system_load(reinterpret_cast<const std::uint8_t*>(text), sizeof text - 1, nullptr,
+                               as<ifsm_system>(made));
+     },
+     drop_system},
+    {"system_file_names", "ifsm_system_file_names", 1, 1,
+     [](World& world, std::uint64_t*) {
+       std::int64_t count = 0;
+       return ifsm_system_file_names(world.system_file.data(), static_cast<std::int64_t>(world.system_file.size()),
+                                     world.byte_room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_histogram", "ifsm_system_histogram", 1, 1, histogram, drop_nothing},
+    {"system_histogram_two_threads", "ifsm_system_histogram", 2, 1, histogram, drop_nothing},
+    {"system_set", "ifsm_system_set", 1, 1, set, drop_nothing},
+    {"system_set_two_threads", "ifsm_system_set", 2, 1, set, drop_nothing},
+    {"system_distances", "ifsm_system_distances", 1, 17, picture_distances, drop_nothing},
+    {"system_distances_two_threads", "ifsm_system_distances", 2, 101, picture_distances, drop_nothing},
+    {"system_render_tone", "ifsm_system_render", 1, 1,
+     [](World& world, std::uint64_t*) { return render(world, world.system, IFSM_COLOUR_TONE); }, drop_nothing},
+    {"system_render_symbol", "ifsm_system_render", 1, 1,
+     [](World& world, std::uint64_t*) { return render(world, world.system, IFSM_COLOUR_SYMBOL); }, drop_nothing},
+    {"system_render_address", "ifsm_system_render", 1, 1,
+     [](World& world, std::uint64_t*) { return render(world, world.system, IFSM_COLOUR_ADDRESS); }, drop_nothing},
+    {"system_render_address_two_threads", "ifsm_system_render", 2, 1,
+     [](World& world, std::uint64_t*) { return render(world, world.system, IFSM_COLOUR_ADDRESS); }, drop_nothing},
+    {"system_render_set", "ifsm_system_render", 1, 1,
+     [](World& world, std::uint64_t*) { return render(world, world.system, IFSM_COLOUR_SET); }, drop_nothing},
+    {"system_render_distance", "ifsm_system_render", 1, 17,
+     [](World& world, std::uint64_t*) { return render(world, world.system, IFSM_COLOUR_DISTANCE); }, drop_nothing},
+    {"system_render_space", "ifsm_system_render", 1, 199,
+     [](World& world, std::uint64_t*) { return render(world, world.space, IFSM_COLOUR_TONE); }, drop_nothing},
+    {"tone_map", "ifsm_tone_map", 1, 1,
+     [](World& world, std::uint64_t*) {
+       const std::uint32_t counts[] = {0, 1, 7, 5, 3};
+       const std::uint8_t stops[] = {1, 2, 3, 200, 100, 0};
+       ifsm_picture_options options = small_picture(0);
+       options.stops = stops, options.stop_count = 6;
+       std::int64_t count = 0;
+       return ifsm_tone_map(counts, 5, &options, world.byte_room.data(), 20, &count);
+     },
+     drop_nothing},
+    {"system_sample", "ifsm_system_sample", 1, 1,
+     [](World& world, std::uint64_t*) {
+       ifsm_picture_options options = small_picture(0);
+       options.points = 100;
+       std::int64_t count = 0;
+       return ifsm_system_sample(world.space, &options, world.room.data(), room_count, &count);
+     },
+     drop_nothing},
+    {"system_sample_addresses", "ifsm_system_sample_addresses", 1, 1, sample_addresses, drop_nothing},
+    {"system_sample_addresses_two_threads", "ifsm_system_sample_addresses", 2, 1, sample_addresses, drop_nothing},
 };
 
 template <class T, class Read>
@@ -486,11 +729,22 @@ World make_world() {
         read<std::uint8_t>([&](std::uint8_t* to, std::int64_t room, std::int64_t* count) {
           return ifsm_model_save(world.model, format, to, room, count);
         });
+  world.maps = {.5, 0, 0, 0, .5, 0, .5, 0, .5, 0, .5, 0, .5, 0, 0, 0, .5, .5};
+  EXPECT_EQ(ifsm_system_create(2, world.maps.data(), 18, nullptr, 0, &world.system), IFSM_OK);
+  EXPECT_EQ(ifsm_system_named("tetrahedron", &world.space), IFSM_OK);
+  world.system_file = read<std::uint8_t>([&](std::uint8_t* to, std::int64_t room, std::int64_t* count) {
+    return ifsm_system_save(world.system, IFSM_FORMAT_JSON, nullptr, to, room, count);
+  });
   return world;
 }
 
-// Bits of the model that was made before: what it gives now is what it gave then.
+// Bits of the model and the system that were made before: what they give now is what they gave then.
 bool still_usable(World& world) {
+  double maps[18];
+  std::int64_t numbers = 0;
+  if (ifsm_system_maps(world.system, maps, 18, &numbers) != IFSM_OK || numbers != 18 ||
+      !std::equal(world.maps.begin(), world.maps.end(), maps))
+    return false;
   std::vector<double> now(world.samples.size());
   std::int64_t count = 0;
   const auto room = static_cast<std::int64_t>(now.size());
@@ -604,6 +858,8 @@ TEST_P(OutOfMemory, IsAnErrorAndNothingElse) {
   EXPECT_EQ(ifsm_deformer_destroy(world.deformer), IFSM_OK);
   EXPECT_EQ(ifsm_model_destroy(world.model), IFSM_OK);
   EXPECT_EQ(ifsm_filter_destroy(world.filter), IFSM_OK);
+  EXPECT_EQ(ifsm_system_destroy(world.system), IFSM_OK);
+  EXPECT_EQ(ifsm_system_destroy(world.space), IFSM_OK);
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, OutOfMemory, testing::ValuesIn(scenarios),
