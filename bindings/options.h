@@ -192,4 +192,137 @@ inline ifsm_status ifsm_deformer_texture(ifsm_deformer deformer, int32_t first, 
   return ::ifsm_deformer_texture(deformer, first, last, &options);
 }
 
+// Of pictures each function takes the fields that count for it; the others are zero.
+
+inline ifsm_status ifsm_system_histogram(ifsm_system system, int32_t width, int32_t height, int32_t threads,
+                                         double left, double bottom, double right, double top, uint64_t seed,
+                                         int64_t points, ifsm_cancel cancel, ifsm_progress_callback progress,
+                                         void *user, ifsm_picture_report *report, uint32_t *counts, int64_t capacity,
+                                         int64_t *count) {
+  auto options = defaults(ifsm_picture_options_init);
+  options.width = width;
+  options.height = height;
+  options.threads = threads;
+  options.left = left;
+  options.bottom = bottom;
+  options.right = right;
+  options.top = top;
+  options.seed = seed;
+  options.points = points;
+  options.cancel = cancel;
+  options.progress = progress;
+  options.user = user;
+  return ::ifsm_system_histogram(system, &options, report, counts, capacity, count);
+}
+
+inline ifsm_status ifsm_system_set(ifsm_system system, int32_t width, int32_t height, int32_t threads, double left,
+                                   double bottom, double right, double top, double tolerance, ifsm_cancel cancel,
+                                   ifsm_progress_callback progress, void *user, ifsm_picture_report *report,
+                                   uint8_t *pixels, int64_t capacity, int64_t *count) {
+  auto options = defaults(ifsm_picture_options_init);
+  options.width = width;
+  options.height = height;
+  options.threads = threads;
+  options.left = left;
+  options.bottom = bottom;
+  options.right = right;
+  options.top = top;
+  options.tolerance = tolerance;
+  options.cancel = cancel;
+  options.progress = progress;
+  options.user = user;
+  return ::ifsm_system_set(system, &options, report, pixels, capacity, count);
+}
+
+inline ifsm_status ifsm_system_distances(ifsm_system system, int32_t width, int32_t height, int32_t threads,
+                                         double left, double bottom, double right, double top, double tolerance,
+                                         ifsm_cancel cancel, ifsm_progress_callback progress, void *user,
+                                         ifsm_picture_report *report, double *distances, int64_t capacity,
+                                         int64_t *count) {
+  auto options = defaults(ifsm_picture_options_init);
+  options.width = width;
+  options.height = height;
+  options.threads = threads;
+  options.left = left;
+  options.bottom = bottom;
+  options.right = right;
+  options.top = top;
+  options.tolerance = tolerance;
+  options.cancel = cancel;
+  options.progress = progress;
+  options.user = user;
+  return ::ifsm_system_distances(system, &options, report, distances, capacity, count);
+}
+
+inline ifsm_status ifsm_system_render(ifsm_system system, int32_t width, int32_t height, int32_t threads, double left,
+                                      double bottom, double right, double top, uint64_t seed, int64_t points,
+                                      double tolerance, int32_t colour, int32_t palette, const uint8_t *stops,
+                                      int64_t stop_count, int32_t symbols, int32_t oversample, uint32_t background,
+                                      double azimuth, double elevation, double field, ifsm_cancel cancel,
+                                      ifsm_progress_callback progress, void *user, ifsm_picture_report *report,
+                                      uint8_t *rgba, int64_t capacity, int64_t *count) {
+  auto options = defaults(ifsm_picture_options_init);
+  options.width = width;
+  options.height = height;
+  options.threads = threads;
+  options.left = left;
+  options.bottom = bottom;
+  options.right = right;
+  options.top = top;
+  options.seed = seed;
+  options.points = points;
+  options.tolerance = tolerance;
+  options.colour = colour;
+  options.palette = palette;
+  options.stops = stops;
+  options.stop_count = stop_count;
+  options.symbols = symbols;
+  options.oversample = oversample;
+  options.background = background;
+  options.azimuth = azimuth;
+  options.elevation = elevation;
+  options.field = field;
+  options.cancel = cancel;
+  options.progress = progress;
+  options.user = user;
+  return ::ifsm_system_render(system, &options, report, rgba, capacity, count);
+}
+
+inline ifsm_status ifsm_tone_map(const uint32_t *counts, int64_t pixel_count, int32_t palette, const uint8_t *stops,
+                                 int64_t stop_count, uint32_t background, uint8_t *rgba, int64_t capacity,
+                                 int64_t *count) {
+  auto options = defaults(ifsm_picture_options_init);
+  options.palette = palette;
+  options.stops = stops;
+  options.stop_count = stop_count;
+  options.background = background;
+  return ::ifsm_tone_map(counts, pixel_count, &options, rgba, capacity, count);
+}
+
+inline ifsm_status ifsm_system_sample(ifsm_system system, int32_t threads, uint64_t seed, int64_t point_count,
+                                      ifsm_cancel cancel, ifsm_progress_callback progress, void *user, double *points,
+                                      int64_t capacity, int64_t *count) {
+  auto options = defaults(ifsm_picture_options_init);
+  options.threads = threads;
+  options.seed = seed;
+  options.points = point_count;
+  options.cancel = cancel;
+  options.progress = progress;
+  options.user = user;
+  return ::ifsm_system_sample(system, &options, points, capacity, count);
+}
+
+inline ifsm_status ifsm_system_sample_addresses(ifsm_system system, int32_t threads, uint64_t seed, int64_t point_count,
+                                                ifsm_cancel cancel, ifsm_progress_callback progress, void *user,
+                                                int32_t length, int32_t *symbols, int64_t capacity, int64_t *count) {
+  auto options = defaults(ifsm_picture_options_init);
+  options.threads = threads;
+  options.seed = seed;
+  options.points = point_count;
+  options.cancel = cancel;
+  options.progress = progress;
+  options.user = user;
+  return ::ifsm_system_sample_addresses(system, &options, length, symbols, capacity, count);
+}
+
 }  // namespace ifsm_bindings

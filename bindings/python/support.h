@@ -99,6 +99,15 @@ struct Argument {
   }
 };
 
+// Whether None is C's NULL for an argument, which stands for something there.
+inline bool may_be_nothing(Argument argument) {
+  constexpr const char *all[][2] = {
+      {"ifsm_model_from_system", "polygon"}, {"ifsm_system_save", "name"}, {"ifsm_system_load", "name"}};
+  for (const auto &[function, name] : all)
+    if (std::strcmp(argument.function, function) == 0 && std::strcmp(argument.name, name) == 0) return true;
+  return false;
+}
+
 // ------------------------------------------------------------------------------------------------------------------
 // Numbers and names
 
@@ -144,6 +153,7 @@ bool take(PyObject *given, Argument argument, Integer &number) {
 
 // Borrowed from the str, which the caller's tuple of arguments keeps.
 inline bool take(PyObject *given, Argument argument, const char *&text) {
+  if (given == Py_None && may_be_nothing(argument)) return true;
   if (!PyUnicode_Check(given)) return argument.wants("a str", given);
   Py_ssize_t length = 0;
   text = PyUnicode_AsUTF8AndSize(given, &length);
@@ -182,6 +192,11 @@ template <>
 struct Kind<ifsm_deformer> {
   static constexpr const char *name = "ifsm_deformer";
   static ifsm_status destroy(ifsm_deformer handle) { return ifsm_deformer_destroy(handle); }
+};
+template <>
+struct Kind<ifsm_system> {
+  static constexpr const char *name = "ifsm_system";
+  static ifsm_status destroy(ifsm_system handle) { return ifsm_system_destroy(handle); }
 };
 template <>
 struct Kind<ifsm_cancel> {
@@ -247,6 +262,10 @@ struct Element<std::int64_t> {
   static constexpr const char *formats = "lq", *what = "an aligned C-contiguous array of int64";
 };
 template <>
+struct Element<std::uint32_t> {
+  static constexpr const char *formats = "I", *what = "an aligned C-contiguous array of uint32";
+};
+template <>
 struct Element<std::uint8_t> {
   static constexpr const char *formats = "Bbc", *what = "bytes, or a C-contiguous array of uint8";
 };
@@ -295,7 +314,9 @@ inline std::uintptr_t address_of(const double *data, std::int64_t) { return rein
 
 class Curves {
  public:
+  // None adds nothing, where C takes NULL.
   bool take_one(PyObject *given, Argument argument) {
+    if (given == Py_None && may_be_nothing(argument)) return true;
     if (!PyTuple_Check(given) || PyTuple_GET_SIZE(given) != 2)
       return argument.wants("a curve: a tuple of an array and whether it is closed", given);
     views_.emplace_back();

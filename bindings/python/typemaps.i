@@ -41,9 +41,11 @@ IFSM_QUICK(ifsm_model_interval)
 IFSM_QUICK(ifsm_fit_describe)
 IFSM_QUICK(ifsm_fit_describe_budget)
 IFSM_QUICK(ifsm_deformer_describe)
+IFSM_QUICK(ifsm_system_describe)
+IFSM_QUICK(ifsm_system_catalog)
 
 // Numbers and names.
-%typemap(in) int32_t, int64_t, uint64_t, double { if (!ifsm_python::take($input, IFSM_ARGUMENT, $1)) SWIG_fail; }
+%typemap(in) int32_t, int64_t, uint32_t, uint64_t, double { if (!ifsm_python::take($input, IFSM_ARGUMENT, $1)) SWIG_fail; }
 %typemap(in) const char * {
   const char *text = nullptr;
   if (!ifsm_python::take($input, IFSM_ARGUMENT, text)) SWIG_fail;
@@ -73,6 +75,7 @@ IFSM_HANDLE(ifsm_model)
 IFSM_HANDLE(ifsm_fit)
 IFSM_HANDLE(ifsm_deformer)
 IFSM_HANDLE(ifsm_cancel)
+IFSM_HANDLE(ifsm_system)
 
 // Arrays. Output arrays are the caller's, too; None asks for the count, which is what a call returns.
 %define IFSM_ARRAY_IN(TYPE, DATA, COUNT)
@@ -86,6 +89,7 @@ IFSM_ARRAY_IN(double, DOUBLES, DOUBLE_COUNT)
 IFSM_ARRAY_IN(int32_t, INTS, INT_COUNT)
 IFSM_ARRAY_IN(int64_t, WIDE_INTS, WIDE_INT_COUNT)
 IFSM_ARRAY_IN(uint8_t, BYTES, BYTE_COUNT)
+IFSM_ARRAY_IN(uint32_t, COUNTS, COUNT_COUNT)
 
 %define IFSM_ARRAY_OUT(TYPE)
 %typemap(in) (TYPE *OUTPUT, int64_t capacity, int64_t *count) (ifsm_python::View<TYPE> view, int64_t told) {
@@ -100,11 +104,12 @@ IFSM_ARRAY_IN(uint8_t, BYTES, BYTE_COUNT)
 IFSM_ARRAY_OUT(double)
 IFSM_ARRAY_OUT(int32_t)
 IFSM_ARRAY_OUT(uint8_t)
+IFSM_ARRAY_OUT(uint32_t)
 
 // Curves, and what is known about them.
 %typemap(in) const ifsm_curve *CURVE (ifsm_python::Curves taken) {
   if (!taken.take_one($input, IFSM_ARGUMENT)) SWIG_fail;
-  $1 = const_cast<ifsm_curve *>(taken.data());
+  $1 = const_cast<ifsm_curve *>(taken.size() == 0 ? nullptr : taken.data());
 }
 %typemap(in) (const ifsm_curve *CURVES, int64_t CURVE_COUNT) (ifsm_python::Curves taken) {
   if (!taken.take_list($input, IFSM_ARGUMENT)) SWIG_fail;
@@ -152,6 +157,9 @@ IFSM_TOLD(ifsm_distances, distances)
 IFSM_TOLD(ifsm_dimension_report, report)
 IFSM_TOLD(ifsm_spectrum_report, report)
 IFSM_TOLD(ifsm_deformer_info, info)
+IFSM_TOLD(ifsm_system_entry, entry)
+IFSM_TOLD(ifsm_system_info, info)
+IFSM_TOLD(ifsm_picture_report, report)
 
 // What makes exceptions: maker(status, function, argument, index, value, required, message).
 %exception ifsm_python::set_error_maker { $action }
