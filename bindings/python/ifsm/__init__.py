@@ -13,7 +13,7 @@ without the interpreter's lock, and Ctrl-C cancels them.
 """
 import atexit
 
-from . import _native
+from . import _native, systems
 from ._answers import Crossings, Dimension, Distances, Nearest, Spectrum
 from ._curves import curves
 from ._deformers import Deformer
@@ -32,14 +32,16 @@ from ._errors import (
 from ._filters import Filter
 from ._fits import Budget, Fit, FitReport, Known, TrainReport, fit, fit_curve, fit_filter, fit_sparse, train
 from ._models import Model
+from ._pictures import PictureReport, tone_map
+from ._systems import Ball, System
 
 __version__ = _native.ifsm_version_text()
 
 __all__ = [
-    "Budget", "Busy", "Cancelled", "Closed", "Crossings", "Deformer", "Dimension", "Distances", "Error", "Filter", "Fit",
-    "FitReport", "InternalError", "InvalidType", "InvalidValue", "Known", "Model", "Nearest", "NumericalError",
-    "OutOfMemory", "Spectrum", "Status", "TrainReport", "curves", "fit", "fit_curve", "fit_filter", "fit_sparse",
-    "load", "log_to", "set_threads", "threads", "train",
+    "Ball", "Budget", "Busy", "Cancelled", "Closed", "Crossings", "Deformer", "Dimension", "Distances", "Error", "Filter",
+    "Fit", "FitReport", "InternalError", "InvalidType", "InvalidValue", "Known", "Model", "Nearest", "NumericalError",
+    "OutOfMemory", "PictureReport", "Spectrum", "Status", "System", "TrainReport", "curves", "fit", "fit_curve",
+    "fit_filter", "fit_sparse", "load", "log_to", "set_threads", "systems", "threads", "tone_map", "train",
 ]
 
 
@@ -85,5 +87,6 @@ def __dir__():
 atexit.register(_native.close_door)
 
 for _name in __all__:
-    globals()[_name].__module__ = __name__  # where people find them
+    if _name != "systems":
+        globals()[_name].__module__ = __name__  # where people find them
 del _name

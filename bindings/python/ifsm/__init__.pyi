@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 from typing_extensions import Self, TypeAlias
 
-from . import batch as batch, plot as plot
+from . import batch as batch, plot as plot, systems as systems
 
 __all__ = [
-    "Budget", "Busy", "Cancelled", "Closed", "Crossings", "Deformer", "Dimension", "Distances", "Error", "Filter", "Fit",
-    "FitReport", "InternalError", "InvalidType", "InvalidValue", "Known", "Model", "Nearest", "NumericalError",
-    "OutOfMemory", "Spectrum", "Status", "TrainReport", "curves", "fit", "fit_curve", "fit_filter", "fit_sparse",
-    "load", "log_to", "set_threads", "threads", "train",
+    "Ball", "Budget", "Busy", "Cancelled", "Closed", "Crossings", "Deformer", "Dimension", "Distances", "Error", "Filter",
+    "Fit", "FitReport", "InternalError", "InvalidType", "InvalidValue", "Known", "Model", "Nearest", "NumericalError",
+    "OutOfMemory", "PictureReport", "Spectrum", "Status", "System", "TrainReport", "curves", "fit", "fit_curve",
+    "fit_filter", "fit_sparse", "load", "log_to", "set_threads", "systems", "threads", "tone_map", "train",
 ]
 
 __version__: str
@@ -34,6 +34,9 @@ class _Rows(Protocol):
     def __contains__(self, value: object, /) -> bool: ...
     def __getitem__(self, index: int, /) -> float | _HasArray | _Rows: ...
     def count(self, value: Any, /) -> int: ...
+
+class _Readable(Protocol):
+    def read(self) -> bytes: ...
 
 class _HasGeoInterface(Protocol):
     @property
@@ -57,8 +60,13 @@ _Frame: TypeAlias = Literal["absolute", "node"]
 _Distance: TypeAlias = Literal["rms", "largest", "hausdorff"]
 _Resolve: TypeAlias = Literal["none", "values", "choice"]
 _Format: TypeAlias = Literal["json", "cbor"]
+_SystemFormat: TypeAlias = Literal["json", "cbor", "fractint"]
 _Turning: TypeAlias = Literal["similarity", "rotation", "linear"]
 _Follow: TypeAlias = Literal["moved", "each", "none"]
+_Colour: TypeAlias = str | Sequence[SupportsIndex] | NDArray[np.integer[Any]]
+_Palette: TypeAlias = (
+    Literal["dusk", "sea", "fern", "ember", "ink"] | list[Any] | tuple[Any, ...] | NDArray[np.integer[Any]]
+)
 
 # ---- errors ------------------------------------------------------------------------------------------------------
 
@@ -406,6 +414,208 @@ class Deformer(_Handled):
     def snapshot(self) -> Model: ...
     def __copy__(self) -> Deformer: ...
     def __deepcopy__(self, memo: dict[int, Any]) -> Deformer: ...
+
+# ---- systems -----------------------------------------------------------------------------------------------------
+
+class Ball(NamedTuple):
+    centre: _Doubles
+    radius: float
+
+class PictureReport(NamedTuple):
+    window: tuple[float, float, float, float]
+    width: int
+    height: int
+    points: int
+    inside: int
+    met: int
+    undecided: int
+
+class System(_Handled):
+    def __init__(self, maps: _Array, weights: _Array | None = None) -> None: ...
+    @overload
+    @classmethod
+    def from_parameters(
+        cls,
+        parameters: _Array,
+        *,
+        angles: None = None,
+        scales: None = None,
+        shears: None = None,
+        shifts: None = None,
+        weights: _Array | None = None,
+    ) -> Self: ...
+    @overload
+    @classmethod
+    def from_parameters(
+        cls,
+        parameters: None = None,
+        *,
+        angles: _Array | None = None,
+        scales: _Array | _Float | None = None,
+        shears: _Array | None = None,
+        shifts: _Array,
+        weights: _Array | None = None,
+    ) -> Self: ...
+    @classmethod
+    def named(cls, name: str) -> Self: ...
+    @classmethod
+    def from_model(cls, model: Model) -> Self: ...
+    @property
+    def dimension(self) -> int: ...
+    @property
+    def maps(self) -> _Doubles: ...
+    @property
+    def probabilities(self) -> _Doubles: ...
+    @property
+    def parameters(self) -> _Doubles: ...
+    @property
+    def fixed_points(self) -> _Doubles: ...
+    @property
+    def contractive(self) -> bool | None: ...
+    @property
+    def witness(self) -> NDArray[np.int32] | None: ...
+    @property
+    def radius(self) -> float | None: ...
+    def word(self, symbols: _Integers) -> _Doubles: ...
+    def point(self, symbols: _Integers, *, period: _Int | None = None) -> _Doubles: ...
+    def addresses(self, point: _Array, length: _Int, *, tolerance: _Float = 0.0) -> NDArray[np.int32]: ...
+    def box(self, tolerance: _Float | None = None) -> _Doubles: ...
+    def ball(self, tolerance: _Float | None = None) -> Ball: ...
+    def diameter(self, tolerance: _Float | None = None) -> float: ...
+    def moments(self, degree: _Int, *, about: _Array | None = None) -> dict[tuple[int, ...], float]: ...
+    def similarity_dimension(self) -> float: ...
+    def box_dimension(self, finest: _Int | None = None) -> Dimension: ...
+    def model(self, *, levels: _Int, topology: _Topology = "square", polygon: _Array | None = None) -> Model: ...
+    @overload
+    def histogram(
+        self,
+        size: _Integers = 1024,
+        *,
+        window: _Array | None = None,
+        points: _Int | None = None,
+        seed: _Int = 0,
+        threads: _Int = 0,
+        full: Literal[False] = False,
+        progress: _Progress = None,
+    ) -> NDArray[np.uint32]: ...
+    @overload
+    def histogram(
+        self,
+        size: _Integers = 1024,
+        *,
+        window: _Array | None = None,
+        points: _Int | None = None,
+        seed: _Int = 0,
+        threads: _Int = 0,
+        full: Literal[True],
+        progress: _Progress = None,
+    ) -> tuple[NDArray[np.uint32], PictureReport]: ...
+    @overload
+    def set(
+        self,
+        size: _Integers = 1024,
+        *,
+        window: _Array | None = None,
+        tolerance: _Float = 0.0,
+        threads: _Int = 0,
+        full: Literal[False] = False,
+        progress: _Progress = None,
+    ) -> NDArray[np.uint8]: ...
+    @overload
+    def set(
+        self,
+        size: _Integers = 1024,
+        *,
+        window: _Array | None = None,
+        tolerance: _Float = 0.0,
+        threads: _Int = 0,
+        full: Literal[True],
+        progress: _Progress = None,
+    ) -> tuple[NDArray[np.uint8], PictureReport]: ...
+    @overload
+    def distances(
+        self,
+        size: _Integers = 1024,
+        *,
+        window: _Array | None = None,
+        tolerance: _Float = 0.0,
+        threads: _Int = 0,
+        full: Literal[False] = False,
+        progress: _Progress = None,
+    ) -> _Doubles: ...
+    @overload
+    def distances(
+        self,
+        size: _Integers = 1024,
+        *,
+        window: _Array | None = None,
+        tolerance: _Float = 0.0,
+        threads: _Int = 0,
+        full: Literal[True],
+        progress: _Progress = None,
+    ) -> tuple[_Doubles, PictureReport]: ...
+    @overload
+    def render(
+        self,
+        size: _Integers = 1024,
+        *,
+        window: _Array | None = None,
+        colour: Literal["tone", "symbol", "address", "set", "distance"] = "tone",
+        palette: _Palette = "dusk",
+        symbols: _Int = 0,
+        background: _Colour | None = None,
+        points: _Int | None = None,
+        seed: _Int = 0,
+        oversample: _Int = 0,
+        tolerance: _Float = 0.0,
+        azimuth: _Float = 0.0,
+        elevation: _Float = 0.0,
+        field: _Float = 0.0,
+        threads: _Int = 0,
+        full: Literal[False] = False,
+        progress: _Progress = None,
+    ) -> NDArray[np.uint8]: ...
+    @overload
+    def render(
+        self,
+        size: _Integers = 1024,
+        *,
+        window: _Array | None = None,
+        colour: Literal["tone", "symbol", "address", "set", "distance"] = "tone",
+        palette: _Palette = "dusk",
+        symbols: _Int = 0,
+        background: _Colour | None = None,
+        points: _Int | None = None,
+        seed: _Int = 0,
+        oversample: _Int = 0,
+        tolerance: _Float = 0.0,
+        azimuth: _Float = 0.0,
+        elevation: _Float = 0.0,
+        field: _Float = 0.0,
+        threads: _Int = 0,
+        full: Literal[True],
+        progress: _Progress = None,
+    ) -> tuple[NDArray[np.uint8], PictureReport]: ...
+    def sample(
+        self, points: _Int = 65536, *, seed: _Int = 0, threads: _Int = 0, progress: _Progress = None
+    ) -> _Doubles: ...
+    def sample_addresses(
+        self, points: _Int, length: _Int, *, seed: _Int = 0, threads: _Int = 0, progress: _Progress = None
+    ) -> NDArray[np.int32]: ...
+    def to_bytes(self, format: _SystemFormat = "cbor", *, name: str | None = None) -> bytes: ...
+    @classmethod
+    def from_bytes(cls, data: bytes | bytearray | memoryview, *, name: str | None = None) -> Self: ...
+    def save(self, path: _Path, *, format: _SystemFormat | None = None) -> None: ...
+    @classmethod
+    def load(cls, file: _Path | _Readable, name: str | None = None) -> Self: ...
+    @staticmethod
+    def file_names(file: _Path | _Readable) -> list[str]: ...
+    def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Self: ...
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self: ...
+
+def tone_map(counts: _Array, *, palette: _Palette = "dusk", background: _Colour | None = None) -> NDArray[np.uint8]: ...
 
 # ---- fits --------------------------------------------------------------------------------------------------------
 

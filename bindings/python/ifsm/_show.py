@@ -1,10 +1,14 @@
-"""What notebooks show of a model: a table and its outline, without any plotting library; and a picture with one."""
+"""What notebooks show of a model: a table and its outline, without any plotting library; and a picture with one. Of a
+system a small picture, without any."""
 import html as _html
 import io
+import struct
+import zlib
 
 import numpy as np
 
 _SIZE = 240  # pixels of the outline's longer side
+_SYSTEM_SIZE = 320  # pixels of a system's picture
 _MOST_POINTS = 2000  # as many as such an outline can show
 
 
@@ -50,3 +54,22 @@ def png(model):
     data = io.BytesIO()
     figure.savefig(data, format="png", dpi=100)
     return data.getvalue()
+
+
+def png_of_system(system):
+    """None of systems that have no attractor."""
+    if not system.contractive:
+        return None
+    colour = "tone" if system.dimension == 2 else "symbol"
+    return encoded(system.render(_SYSTEM_SIZE, colour=colour, background="white", azimuth=0.6, elevation=0.4))
+
+
+def encoded(pixels):
+    """An array of shape (height, width, 4) as a PNG file's bytes."""
+    height, width, _ = pixels.shape
+    rows = np.zeros((height, 1 + 4 * width), np.uint8)  # each begins with the number of its filter, 0: none
+    rows[:, 1:] = pixels.reshape(height, -1)
+    header = struct.pack(">IIBBBBB", width, height, 8, 6, 0, 0, 0)  # 8 bits a channel, RGBA
+    chunks = ((b"IHDR", header), (b"IDAT", zlib.compress(rows.tobytes())), (b"IEND", b""))
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data)) for kind, data in chunks)

@@ -12,7 +12,7 @@ import ifsm
 README = pathlib.Path(__file__).resolve().parents[1] / "README.md"
 
 
-@pytest.mark.parametrize("name", ["ifsm", "ifsm.plot"])
+@pytest.mark.parametrize("name", ["ifsm", "ifsm.plot", "ifsm.systems", "ifsm._pictures"])
 def test_examples_in_docstrings_say_what_happens(name):
     if name == "ifsm.plot":
         pytest.importorskip("matplotlib").use("Agg")
