@@ -1,17 +1,22 @@
-"""What the pictures of `ifsm.plot` are made of: models that can be drawn, lines, axes."""
+"""What the pictures of `ifsm.plot` are made of: models and systems that can be drawn, lines, axes."""
+import numbers
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
+from . import _pictures
 from ._deformers import Deformer
 from ._errors import Closed, Status, invalid_type, invalid_value
 from ._models import Model
+from ._systems import System
 
 _COORDINATES = ("x", "y", "z")
 _FEW = 60  # points that are seen one by one
 _MANY = 1000  # points from which on a usual line hides what it shows
 _AIR = 0.5  # of the curve's extent: how far beside it the view goes for control points; those of a ring may be anywhere
 _ABREAST, _PANEL = 3, 3.0  # small multiples in a row, and how wide, in inches
+_SLIMMEST = 0.1  # a picture's shorter side over its longer one: of attractors that are lines
 _ZOOM = 0.75  # of a box in space: room for its labels, which no layout sees
 
 
@@ -39,6 +44,28 @@ def same_dimension(first, second, function, argument):
     if second.dimension != first.dimension:
         raise invalid_value(function, argument, f"{argument} has {second.dimension} dimensions, and model "
                             f"{first.dimension}; give two of the same.", Status.SHAPE, required=first.dimension)
+
+
+def system_of(given, function):
+    if not isinstance(given, System):
+        raise invalid_type(function, "system", given, "an ifsm.System")
+    if given._native is None:
+        raise Closed("system was closed; give one that is not.", Status.INVALID_HANDLE, function, "system")
+    return given
+
+
+def picture_size(system, size, window):
+    """(width, height) of a picture of square pixels whose longer side was given; anything else as it is."""
+    if not isinstance(size, numbers.Integral) or size < 1 or system.dimension == 3:
+        return size
+    if window is None:
+        extents = np.ptp(system.box(), axis=0)
+    else:
+        left, bottom, right, top = _pictures.window_of(window, "ifsm.plot.system")
+        extents = np.array([right - left, top - bottom])
+    if not 0 < extents.max() < np.inf:
+        return size  # a point, or what will be refused
+    return tuple(max(1, round(float(size * max(share, _SLIMMEST)))) for share in extents / extents.max())
 
 
 def closed(model, points):

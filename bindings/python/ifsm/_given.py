@@ -57,14 +57,15 @@ def _finite(given, function, argument):
     return values
 
 
-def vector(given, function, argument):
-    if given is None:
+def vector(given, count, function, argument, optional=False):
+    """So many numbers; or None."""
+    if given is None and optional:
         return None
-    vector = _arrays.doubles(given, function, argument)
-    if vector.ndim != 1:
-        raise invalid_value(function, argument, f"{argument} has the shape {vector.shape}; give a list of numbers.",
-                            Status.SHAPE)
-    return vector
+    numbers = _arrays.doubles(given, function, argument)
+    if numbers.shape != (count,):
+        raise invalid_value(function, argument, f"{argument} has the shape {numbers.shape}; give {count} numbers.",
+                            Status.SHAPE, required=count)
+    return numbers
 
 
 def powers(dimension, degree):

@@ -137,7 +137,8 @@ class Pictured(Handled):
             share of the measure that has smaller addresses; pixels that the attractor meets, as `set` tells; how far it
             is, as `distances` tells. The last two of the plane alone.
         palette : {"dusk", "sea", "fern", "ember", "ink"}, or a list of colours
-            From light to dark, by lightness alone; or 1 … 256 colours equally far apart.
+            From light to dark, by lightness alone; or 1 … 256 colours equally far apart. Of ``"symbol"`` it does not count:
+            maps have colours that the colour-blind tell apart.
         symbols : int
             Of addresses, 1 … 16; 0: all.
         background : colour, optional
@@ -171,7 +172,7 @@ class Pictured(Handled):
                             _background(background, function), azimuth, elevation, field), np.uint8, (4,), full, progress)
 
     def _drawn(self, call, function, size, window, threads, options, dtype, channels, full, progress):
-        native, (width, height), sides = self._held(), _size(size, function), _window(window, function)
+        native, (width, height), sides = self._held(), _size(size, function), window_of(window, function)
         full = _arrays.is_true(full, function, "full")
         sizes = ("size[0]", "size[1]") if _is_list(size) else ("size", "size")
         names = {**_SIDES, "width": sizes[0], "height": sizes[1]}
@@ -257,7 +258,7 @@ def _size(given, function):
     return pair
 
 
-def _window(given, function):
+def window_of(given, function):
     if given is None:
         return 0.0, 0.0, 0.0, 0.0
     sides = _arrays.doubles(given, function, "window")
@@ -319,8 +320,8 @@ def _colour(given, function, argument):
     parts = _arrays.integers(given, function, argument, np.int64).tolist()
     for index, part in enumerate(parts):
         if not 0 <= part <= 255:
-            raise invalid_value(function, argument, f"{argument}[{index}] is {part}; give red, green and blue from 0 to 255.",
-                                index=index, value=float(part))
+            raise invalid_value(function, argument, f"{argument}[{index}] is {part}; give numbers from 0 to 255.", index=index,
+                                value=float(part))
     return (*parts, 255)[:4]
 
 
@@ -337,15 +338,16 @@ def _palette(given, function):
     try:
         colours = list(given)
     except TypeError:
-        raise invalid_type(function, "palette", given, f"one of {', '.join(map(repr, PALETTES))}, or a list of colours") from None
+        wanted = f"one of {', '.join(map(repr, PALETTES))}, or a list of colours"
+        raise invalid_type(function, "palette", given, wanted) from None
     if not 1 <= len(colours) <= 256:
         raise invalid_value(function, "palette", f"palette holds {len(colours)} colours; give 1 to 256.", Status.SHAPE)
     stops = bytearray()
     for index, colour in enumerate(colours):
         read = _colour(colour, function, f"palette[{index}]")
         if read[3] != 255:
-            raise invalid_value(function, f"palette[{index}]", f"palette[{index}] lets through what is behind it; give colours "
-                                "of alpha 255, or none.")
+            raise invalid_value(function, f"palette[{index}]", f"palette[{index}] is {colour!r}, which lets through what is "
+                                "behind it; give colours without alpha.")
         stops += bytes(read[:3])
     return PALETTES["dusk"], bytes(stops)
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from . import _arrays, _given, _native
 from ._answers import Dimension
-from ._errors import invalid_value, naming
+from ._errors import Status, invalid_value, naming
 from ._filters import _PROOFS, TOPOLOGIES
 from ._models import Model, as_bytes
 from ._objects import native_of
@@ -57,8 +57,9 @@ class System(Pictured):
     def __init__(self, maps, weights=None):
         function = "ifsm.System"
         dimension, rows = _given.rows_of_maps(maps, function)
-        with naming(probabilities="weights", probability_count="weights", count="maps"):
-            self._take(_native.ifsm_system_create(dimension, rows, _given.vector(weights, function, "weights")))
+        shares = _given.vector(weights, len(rows), function, "weights", optional=True)
+        with naming(probabilities="weights", count="maps"):
+            self._take(_native.ifsm_system_create(dimension, rows, shares))
 
     @classmethod
     def _of(cls, native):
@@ -103,10 +104,12 @@ class System(Pictured):
         given = [name for name, value in named.items() if value is not None]
         if (parameters is None) == (not given):
             raise invalid_value(function, "parameters", "Give parameters in one array, or by their names: one of the two.")
-        rows = _given.rows_of_parameters(named, function) if parameters is None else _arrays.table(parameters, function, "parameters")
+        rows = (_given.rows_of_parameters(named, function) if parameters is None else
+                _arrays.table(parameters, function, "parameters"))
         dimension = _given.dimension_of(rows, function, "parameters", "(maps, 6) or (maps, 12)")
-        with naming(probabilities="weights", probability_count="weights", count="parameters"):
-            return cls._of(_native.ifsm_system_from_parameters(dimension, rows, _given.vector(weights, function, "weights")))
+        shares = _given.vector(weights, len(rows), function, "weights", optional=True)
+        with naming(probabilities="weights", count="parameters"):
+            return cls._of(_native.ifsm_system_from_parameters(dimension, rows, shares))
 
     @classmethod
     def named(cls, name):
@@ -200,7 +203,10 @@ class System(Pictured):
         array([0.5, 0. ])
         """
         read = _symbols(symbols, "ifsm.System.point")
-        return _arrays.fetched(_native.ifsm_system_point, self._held(), read, len(read) if period is None else period)
+        if len(read) == 0:
+            raise invalid_value("ifsm.System.point", "symbols", "symbols is empty; give one at least.", Status.SHAPE)
+        with naming(symbol_count="symbols"):
+            return _arrays.fetched(_native.ifsm_system_point, self._held(), read, len(read) if period is None else period)
 
     def addresses(self, point, length, *, tolerance=0.0):
         """The words in whose pieces of the attractor a point lies: an array of int32, of shape (words, length).
@@ -216,9 +222,8 @@ class System(Pictured):
         tolerance : float
             0: 1e-9 of the attractor's size.
         """
-        place = _given.vector(point, "ifsm.System.addresses", "point")
-        with naming(point_count="point"):
-            found = _arrays.fetched(_native.ifsm_system_addresses, self._held(), place, length, tolerance, dtype=np.int32)
+        place = _given.vector(point, self.dimension, "ifsm.System.addresses", "point")
+        found = _arrays.fetched(_native.ifsm_system_addresses, self._held(), place, length, tolerance, dtype=np.int32)
         return found.reshape(-1, length)
 
     # ---- questions --------------------------------------------------------------------------------------------
@@ -259,9 +264,8 @@ class System(Pictured):
         >>> round(moments[1, 0], 12), round(moments[2, 0], 12), round(5 / 27, 12)
         (0.333333333333, 0.185185185185, 0.185185185185)
         """
-        place = _given.vector(about, "ifsm.System.moments", "about")
-        with naming(about_count="about"):
-            values = _arrays.fetched(_native.ifsm_system_moments, self._held(), degree, place)
+        place = _given.vector(about, self.dimension, "ifsm.System.moments", "about", optional=True)
+        values = _arrays.fetched(_native.ifsm_system_moments, self._held(), degree, place)
         return dict(zip(_given.powers(self.dimension, degree), values.tolist()))
 
     def similarity_dimension(self):

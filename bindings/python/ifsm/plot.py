@@ -1,4 +1,4 @@
-"""Pictures of models, drawn with matplotlib.
+"""Pictures of models and of systems, drawn with matplotlib.
 
 >>> t = np.linspace(0, 1, 257)
 >>> model = ifsm.Model(np.column_stack([t, np.sin(9 * t ** 2)]))
@@ -6,8 +6,8 @@
 >>> ifsm.plot.curve(model.keep(details=9), ax=axes, label="9 details") is axes    # or axes that there are
 True
 
-All functions take models, or deformers as they are at the moment, and return the axes that they have drawn on. Without
-`ax` they make a figure by pyplot; labels that axes have already stay. Needs matplotlib: ``pip install ifsm[plot]``.
+All functions but `system` take models, or deformers as they are at the moment, and return the axes that they have drawn
+on. Without `ax` they make a figure by pyplot; labels that axes have already stay. Needs matplotlib: ``pip install ifsm[plot]``.
 """
 import numpy as np
 
@@ -21,7 +21,7 @@ except ImportError as error:
     raise ImportError("ifsm.plot draws with matplotlib, which is not installed: pip install ifsm[plot]") from error
 from . import _drawing
 
-__all__ = ["before_after", "curve", "levels", "residuals", "scalogram"]
+__all__ = ["before_after", "curve", "levels", "residuals", "scalogram", "system"]
 
 _FIRST_LEVELS = 5  # that `levels` shows beside the finest: later ones look like it at this size
 _WIDE_AIR = 2.0  # where control points are what is shown
@@ -284,3 +284,45 @@ def residuals(model, sketch, *, ax=None):
         ax.set_ylim(0, max(ax.get_ylim()[1], 1.25 * distances.max()))  # room for the legend above the line
     ax.legend(loc="upper right", ncol=2, fontsize="small")
     return _drawing.label(ax, "parameter", "distance from the model")
+
+
+# ---- systems ------------------------------------------------------------------------------------------------------
+
+
+def system(system, *, ax=None, size=1024, window=None, **picture):
+    """Draw the attractor of a system: of the plane over its own coordinates; of space as it is seen, without any.
+
+    Parameters
+    ----------
+    system : System
+        Contractive.
+    ax : matplotlib Axes, optional
+    size : int or (int, int)
+        Pixels of the longer side, or (width, height).
+    window : (left, bottom, right, top), optional
+        The part to show; the attractor by default.
+    picture
+        What `System.render` takes: ``colour``, ``palette``, ``background``, ``points``, ``azimuth``, …
+
+    Returns
+    -------
+    matplotlib Axes
+
+    Examples
+    --------
+    >>> axes = ifsm.plot.system(ifsm.systems.fern(), size=200, palette="fern")
+    >>> axes.images[0].get_array().shape
+    (200, 110, 4)
+    """
+    function = "ifsm.plot.system"
+    shown = _drawing.system_of(system, function)
+    if ax is not None:
+        _drawing.checked_axes(ax, function)
+    pixels, report = shown.render(_drawing.picture_size(shown, size, window), window=window, full=True, **picture)
+    left, bottom, right, top = report.window
+    ax = ax if ax is not None else _drawing.new_figure().subplots()
+    ax.imshow(pixels, extent=(left, right, bottom, top))
+    if shown.dimension == 3:
+        ax.set_axis_off()
+        return ax
+    return _drawing.label(ax, "x", "y")

@@ -5,9 +5,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from . import Deformer, Model, _Int, _Integers
+from . import Deformer, Model, System, _Array, _Int, _Integers
 
-__all__ = ["before_after", "curve", "levels", "residuals", "scalogram"]
+__all__ = ["before_after", "curve", "levels", "residuals", "scalogram", "system"]
 
 def curve(
     model: Model | Deformer, *, ax: Axes | None = None, control_polygon: bool = True, levels: _Int | None = None,
@@ -23,3 +23,6 @@ def levels(
 def scalogram(model: Model | Deformer, *, ax: Axes | None = None) -> Axes: ...
 def residuals(model: Model | Deformer, sketch: Model | Deformer, *, ax: Axes | None = None) -> Axes: ...
 def before_after(model: Model | Deformer, deformed: Model | Deformer, *, ax: Axes | None = None, control_polygon: bool = False) -> Axes: ...
+def system(
+    system: System, *, ax: Axes | None = None, size: _Integers = 1024, window: _Array | None = None, **picture: Any
+) -> Axes: ...

@@ -38,6 +38,7 @@ WRONG_ANYWHERE = [None, "text", b"bytes", object(), {}, [[1, 2], [3]], [None, 1]
 def calls(model, deformer, fit):
     """Every function with one argument to be filled in: {name: (call, argument)}."""
     points = [[0.0, 1.0], [1.0, 3.0], [2.0, 0.0], [4.0, 1.0], [5.0, 0.0]]
+    gasket = ifsm.systems.gasket()
     return {
         "Filter": (lambda x: ifsm.Filter(x), "name"),
         "Filter topology": (lambda x: ifsm.Filter("coast", topology=x), "topology"),
@@ -99,13 +100,50 @@ def calls(model, deformer, fit):
         "fit model": (lambda x: fit.model(x), "curve"),
         "fit budget row": (lambda x: fit.budget(0, x), "budget"),
         "curves": (lambda x: ifsm.curves(x), "geometry"),
+        "System": (lambda x: ifsm.System(x), "maps"),
+        "System weights": (lambda x: ifsm.System(gasket.maps, x), "weights"),
+        "from_parameters": (lambda x: ifsm.System.from_parameters(x), "parameters"),
+        "from_parameters scales": (lambda x: ifsm.System.from_parameters(scales=x, shifts=[[0, 0]]), "scales"),
+        "from_parameters shifts": (lambda x: ifsm.System.from_parameters(shifts=x, scales=.5), "shifts"),
+        "System.named": (lambda x: ifsm.System.named(x), "name"),
+        "from_model": (lambda x: ifsm.System.from_model(x), "model"),
+        "word": (lambda x: gasket.word(x), "symbols"),
+        "point": (lambda x: gasket.point(x), "symbols"),
+        "point period": (lambda x: gasket.point([0], period=x), "period"),
+        "addresses": (lambda x: gasket.addresses(x, 3), "point"),
+        "addresses length": (lambda x: gasket.addresses([0, 0], x), "length"),
+        "box": (lambda x: gasket.box(x), "tolerance"),
+        "moments": (lambda x: gasket.moments(x), "degree"),
+        "moments about": (lambda x: gasket.moments(1, about=x), "about"),
+        "box_dimension": (lambda x: gasket.box_dimension(x), "finest"),
+        "system model": (lambda x: gasket.model(levels=x), "levels"),
+        "system polygon": (lambda x: gasket.model(levels=1, polygon=x), "polygon"),
+        "system to_bytes": (lambda x: gasket.to_bytes(x), "format"),
+        "system from_bytes": (lambda x: ifsm.System.from_bytes(x), "data"),
+        "histogram": (lambda x: gasket.histogram(x), "size"),
+        "histogram window": (lambda x: gasket.histogram(8, window=x), "window"),
+        "histogram points": (lambda x: gasket.histogram(8, points=x), "points"),
+        "histogram seed": (lambda x: gasket.histogram(8, seed=x), "seed"),
+        "set": (lambda x: gasket.set(8, tolerance=x), "tolerance"),
+        "render colour": (lambda x: gasket.render(8, colour=x), "colour"),
+        "render palette": (lambda x: gasket.render(8, palette=x), "palette"),
+        "render background": (lambda x: gasket.render(8, background=x), "background"),
+        "render symbols": (lambda x: gasket.render(8, symbols=x), "symbols"),
+        "render azimuth": (lambda x: gasket.render(8, azimuth=x), "azimuth"),
+        "sample": (lambda x: gasket.sample(x), "points"),
+        "sample_addresses": (lambda x: gasket.sample_addresses(8, x), "length"),
+        "tone_map": (lambda x: ifsm.tone_map(x), "counts"),
         "set_threads": (lambda x: ifsm.set_threads(x), "threads"),
     }
 
 
 # What a wrong thing may well mean.
-OPTIONAL = {"points", "points out", "keep", "keep within", "texture", "fit budget", "fit progress", "spaced"}
-MAY_BE_EMPTY = {"call", "interval", "nearest", "curvature", "move handles", "move vectors", "pin", "drag", "drag places"}
+OPTIONAL = {"points", "points out", "keep", "keep within", "texture", "fit budget", "fit progress", "spaced",
+            "System weights",
+            "from_parameters scales", "point period", "box", "moments about", "box_dimension", "system polygon",
+            "histogram window", "histogram points", "render background"}
+MAY_BE_EMPTY = {"call", "interval", "nearest", "curvature", "move handles", "move vectors", "pin", "drag", "drag places",
+                "word", "tone_map"}
 
 
 def has_a_meaning(name, thing):
@@ -113,9 +151,9 @@ def has_a_meaning(name, thing):
         return name in OPTIONAL
     if thing == [] if isinstance(thing, list) else isinstance(thing, np.ndarray) and thing.size == 0:
         return name in MAY_BE_EMPTY
-    if name in ("keep within", "move radius", "at_time") and thing in (2**70, -2**70):  # lengths and times may be any
-        return True
-    return name in ("call", "curvature", "fit_sparse") and np.shape(thing) == (2, 2, 2)  # of any shape; two curves
+    if name in ("keep within", "move radius", "at_time", "render azimuth", "box") and thing in (2**70, -2**70):
+        return True  # lengths, times and angles may be any
+    return name in ("call", "curvature", "fit_sparse", "tone_map") and np.shape(thing) == (2, 2, 2)  # of any shape; two curves
 
 
 def test_anything_wrong_anywhere_is_refused_by_name(walk):

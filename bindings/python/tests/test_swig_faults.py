@@ -29,7 +29,7 @@ for name in sorted(dir(native)):
     call = getattr(native, name)
     if not name.startswith("ifsm_") or isinstance(call, (type, int)):
         continue
-    for count in range(22):
+    for count in range(26):
         for thing in things:
             try:
                 call(*[thing] * count)
@@ -101,6 +101,7 @@ def leak_candidates(walk):
     model = ifsm.Model(walk[:17], filter="casteljau")
     deformer = model.deformer()
     cbor = model.to_bytes()
+    gasket = ifsm.systems.gasket()
 
     def failing():
         try:
@@ -118,6 +119,11 @@ def leak_candidates(walk):
         "samples": model.samples, "points": model.points, "evaluate": lambda: model(0.5), "details": lambda: model.details(1),
         "from_bytes": lambda: ifsm.Model.from_bytes(cbor), "to_bytes": lambda: model.to_bytes("json"),
         "describe": lambda: native.ifsm_model_describe(model._native), "create": lambda: ifsm.Model(walk[:17], "casteljau"),
+        "system": lambda: ifsm.System(gasket.maps), "system bytes": lambda: ifsm.System.from_bytes(gasket.to_bytes()),
+        "word": lambda: gasket.word([0, 1]), "moments": lambda: gasket.moments(2),
+        "entry": lambda: native.ifsm_system_catalog(0),
+        "render": lambda: gasket.render(4, points=64, palette=["#fff"]), "histogram": lambda: gasket.histogram(4, points=64),
+        "set": lambda: gasket.set(4, full=True), "sample": lambda: gasket.sample(8), "tone": lambda: ifsm.tone_map([1, 2]),
         "filter": lambda: model.filter, "matrix": lambda: ifsm.Filter("casteljau").matrix, "edit": lambda: deformer.move(
             0, 1, [0.0, 1.0]).undo(), "nearest": lambda: model.nearest(walk[:3]), "failing": failing, "wrong": wrong_type,
     }
@@ -125,7 +131,8 @@ def leak_candidates(walk):
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="memory is read from Linux's /proc")
 @pytest.mark.parametrize("name", ["samples", "points", "evaluate", "details", "from_bytes", "to_bytes", "describe", "create",
-                                  "filter", "matrix", "edit", "nearest", "failing", "wrong"])
+                                  "filter", "matrix", "edit", "nearest", "failing", "wrong", "system", "system bytes",
+                                  "word", "moments", "entry", "render", "histogram", "set", "sample", "tone"])
 def test_5_memory_stays_flat(walk, name):
     # 8 kB a call, the fault that was measured, would be 80 MB; bench/python.py has every function, 10^5 times.
     assert grown(leak_candidates(walk)[name], 10_000) <= 1 << 20
@@ -141,12 +148,12 @@ def test_6_every_exception_has_a_text(walk):
 
 
 def test_7_signatures_are_told():
-    for owner in (ifsm, ifsm.Model, ifsm.Deformer, ifsm.Filter, ifsm.Fit):
+    for owner in (ifsm, ifsm.Model, ifsm.Deformer, ifsm.Filter, ifsm.Fit, ifsm.System, *ifsm.System.__bases__, ifsm.systems):
         for name, value in vars(owner).items():
-            if name.startswith("_") or not inspect.isroutine(value):
+            if name.startswith("_") or not inspect.isroutine(value) or name == "NamedTuple":  # of the standard library
                 continue
             function = getattr(owner, name)
             for parameter in inspect.signature(function).parameters.values():
                 assert parameter.kind not in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD), f"{owner}.{name}"
             assert inspect.getdoc(function), f"{owner.__name__}.{name} has no docstring"
-    assert len(functions()) > 70
+    assert len(functions()) > 100
