@@ -17,7 +17,8 @@ from ifsm import _native as native
 FILE = pathlib.Path(__file__).resolve().parents[3] / "tests" / "conformance" / "calls.json"
 STEPS = json.loads(FILE.read_text(encoding="utf-8"))["steps"]
 CALLS = [step for step in STEPS if "call" in step]
-TYPES = {"double": np.float64, "int32": np.int32, "uint8": np.uint8}
+TYPES = {"double": np.float64, "int32": np.int32, "uint32": np.uint32, "uint8": np.uint8}
+ARRAYS = {"int32": np.int32, "uint32": np.uint32}  # told as numbers
 KNOWN = ("parameters", "weights", "covariances", "constraint_kinds", "constraint_parameters", "constraint_values")
 NEAR = 1e-6  # where numbers went through libm, as in conformance_test.cpp
 
@@ -93,6 +94,9 @@ class Runner:
     def int64(self, int64):
         return np.array([int(one) for one in int64], np.int64)
 
+    def uint32(self, uint32):
+        return np.array([int(one) for one in uint32], np.uint32)
+
     def bytes(self, bytes):
         return bytearray.fromhex(bytes)
 
@@ -114,8 +118,8 @@ def same(result, expected, libm):
         return type(result) is int and result == expected
     if "text" in expected:
         return result == expected["text"]
-    if "int32" in expected:
-        return result.tolist() == expected["int32"]
+    for name in ARRAYS.keys() & expected.keys():
+        return result.dtype == ARRAYS[name] and result.tolist() == expected[name]
     if "bytes" in expected:
         return result.tobytes().hex() == expected["bytes"]
     return all(same(getattr(result, field), wanted, libm) for field, wanted in expected.items())
@@ -189,10 +193,44 @@ def test_structs_are_told_whole():
     told = {}
     for step in CALLS:
         for result in step.get("results", {}).values():
-            if isinstance(result, dict) and not result.keys() & {"text", "int32", "bytes"}:
+            if isinstance(result, dict) and not result.keys() & {"text", "bytes", *ARRAYS}:
                 told[frozenset(result)] = step["call"]
     for name in dir(native):
         kind = getattr(native, name)
         if name.startswith("ifsm_") and isinstance(kind, type):
             assert frozenset(field for field in dir(kind) if not field.startswith("_") and field not in
                              {"this", "thisown", "acquire", "disown", "own", "append", "next"}) in told, name
+
+
+def test_the_runner_knows_all_kinds_of_values():
+    """Those that the README tells of; the file need not have each."""
+    runner = Runner()
+    call = lambda name, results, **step: same_all(runner.call({"call": name, **step}), results)
+    same_all = lambda found, expected: len(found) == len(expected) and all(map(same, found, expected, len(found) * [False]))
+    hexadecimal = lambda *numbers: [float(one).hex() for one in numbers]
+    assert call("ifsm_system_create", [], arguments={
+        "dimension": 2, "maps": hexadecimal(.5, 0, 0, 0, .5, 0, .5, 0, .5, 0, .5, 0), "probabilities": []}, **{"as": "line"})
+    handle = {"handle": "line"}
+    assert call("ifsm_system_catalog", [{"dimension": 2, "name": {"text": "gasket_right"}, "source": {
+        "text": "paper 003, Fig. 2a"}}], arguments={"index": 1})
+    assert not call("ifsm_system_catalog", [{"dimension": 2, "name": {"text": "gasket_left"}}], arguments={"index": 1})
+    report = {"width": 2, "height": 1, "left": "0x0p+0", "bottom": "-0x1p-1", "right": "0x1p+0", "top": "0x1p-1", "points": 9,
+              "inside": 9, "met": 2, "undecided": 0}
+    drawn = dict(system=handle, width=2, height=1, threads=1, left="0x0p+0", bottom="-0x1p-1", right="0x1p+0", top="0x1p-1",
+                 seed="18446744073709551615", points=9, cancel=None, progress={"callback": "continue"})
+    counts = runner.call({"call": "ifsm_system_histogram", "arguments": {**drawn, "counts": {"output": "uint32"}}})[1]
+    assert counts.dtype == np.uint32 and counts.sum() == 9
+    assert call("ifsm_system_histogram", [report, {"uint32": counts.tolist()}],
+                arguments={**drawn, "counts": {"output": "uint32"}})
+    assert not call("ifsm_system_histogram", [report, {"uint32": [0, 0]}], arguments={**drawn, "counts": {"output": "uint32"}})
+    with pytest.raises(ifsm.Error) as caught:
+        call("ifsm_system_histogram", [], arguments={**drawn, "counts": {"output": "uint32", "capacity": 1}})
+    assert caught.value.code is ifsm.Status.CAPACITY and caught.value.required == 2
+    assert call("ifsm_tone_map", [{"bytes": "00000000" + "204080ff"}], arguments={
+        "counts": {"uint32": [0, 7]}, "palette": 0, "stops": {"bytes": "204080"}, "background": 0, "rgba": {"output": "uint8"}})
+    saved = runner.call({"call": "ifsm_system_save", "arguments": {
+        "system": handle, "format": 2, "name": None, "bytes": {"output": "uint8"}}})[0].tobytes()
+    assert saved.startswith(b"system")
+    assert call("ifsm_system_load", [], arguments={"bytes": {"bytes": saved.hex()}, "name": None}, **{"as": "again"})
+    assert call("ifsm_model_from_system", [], arguments={"system": {"handle": "again"}, "topology": 1, "polygon": None,
+                                                         "levels": 2}, **{"as": "model"})

@@ -92,6 +92,33 @@ trained, report = ifsm.train((line for line in [samples, samples]), budgets=[64,
 assert_type(trained, ifsm.Filter)
 assert_type(report.ratio, float)
 
+# systems and their pictures
+gasket = ifsm.System([[[0.5, 0, 0], [0, 0.5, 0]], [[0.5, 0, 0.5], [0, 0.5, 0]]], weights=[1, 2])
+assert_type(ifsm.systems.fern(), ifsm.System)
+assert_type([entry.dimension for entry in ifsm.systems.catalog()], list[int])
+assert_type(ifsm.System.from_parameters(np.zeros((3, 6))), ifsm.System)
+assert_type(ifsm.System.from_parameters(angles=[0.1, 0.2], scales=0.5, shifts=[[0, 0], [1, 0]]), ifsm.System)
+assert_type(gasket.contractive, Optional[bool])
+assert_type(gasket.witness, Optional[NDArray[np.int32]])
+assert_type(gasket.moments(2)[1, 0], float)
+assert_type(gasket.ball().radius, float)
+assert_type(gasket.box_dimension(), ifsm.Dimension)
+assert_type(gasket.model(levels=3, topology="joined"), ifsm.Model)
+assert_type(gasket.addresses(gasket.point([0, 1]), 3), NDArray[np.int32])
+counts, told = gasket.histogram((300, 200), window=(0, 0, 1.0, 2), full=True)
+assert_type(counts, NDArray[np.uint32])
+assert_type(told.window, tuple[float, float, float, float])
+assert_type(gasket.histogram(64, points=1000, progress=tell), NDArray[np.uint32])
+assert_type(gasket.set(64), NDArray[np.uint8])
+assert_type(gasket.distances(64, full=True), tuple[Doubles, ifsm.PictureReport])
+assert_type(gasket.render(64, palette=["#fff", (1, 2, 3)], background=(0, 0, 0, 255), colour="address"), NDArray[np.uint8])
+assert_type(ifsm.tone_map(counts, palette="sea"), NDArray[np.uint8])
+assert_type(gasket.sample_addresses(100, 5), NDArray[np.int32])
+with open("two.ifs", "rb") as file:
+    assert_type(ifsm.System.load(file, "one"), ifsm.System)
+gasket.save(pathlib.Path("gasket.ifs"), format="fractint")
+ifsm.plot.system(gasket, palette="fern", window=[0, 0, 1, 1])
+
 # modules that are there when they are used
 def failed(fits: ifsm.batch.Fits) -> list[str]:
     return [str(failure.error) for failure in fits.failures]
@@ -159,6 +186,19 @@ model.deformer().move(0, 2, [0, 1]).snapshot().undo()  # wrong
 model.deformer().move(0, 2, [0, 1]).undo().snapshot()
 ifsm.batch.fit([points], "tcp://scheduler")  # wrong
 ifsm.plot.curve(points)  # wrong
+ifsm.systems.fernn()  # wrong
+fern = ifsm.systems.fern()
+fern.render(64, "sea")  # wrong
+fern.render(64, palette="viridis")  # wrong
+fern.render(1.5)  # wrong
+fern.render(64, background=0.5)  # wrong
+fern.render(64, full=True).shape  # wrong
+fern.render(64).shape
+fern.witness.tolist()  # wrong
+fern.to_bytes("xml")  # wrong
+ifsm.System("fern")  # wrong
+ifsm.System.from_parameters(angles=[0.5])  # wrong
+ifsm.plot.system(model)  # wrong
 ifsm.Error("full").index + 1  # wrong
 ifsm.Model._native  # wrong
 """
@@ -210,7 +250,8 @@ def test_stubs_that_say_something_else_are_found(stubs, stubtest):
         "ifsm.Deformer.pin": ("pin(self, level: _Int, handles", "pin(self, level: _Int, *, handles"),
         "ifsm.Filter.condition": ("    @property\n    def condition(self)", "    def condition(self)"),
         "ifsm.Status.BUSY": ("    BUSY = 13\n", ""),
-        "ifsm.load": ("def load(path: _Path)", "def load(file: _Path)"),
+        "ifsm.load": ("def load(path: _Path) -> Model", "def load(file: _Path) -> Model"),
+        "ifsm.System.word": ("def word(self, symbols", "def word(self, letters"),
     }
     stub = stubs / "__init__.pyi"
     text = stub.read_text(encoding="utf-8")
