@@ -67,6 +67,14 @@ ifsm::System parse_system(std::string_view bytes, const std::string& source, con
   }
 }
 
+std::vector<std::string> names_in(std::string_view bytes, const std::string& source) {
+  try {
+    return ifsm::system_names({bytes.begin(), bytes.end()});
+  } catch (const ifsm::Error& error) {
+    throw Failure(Exit::Input, source + ": " + error.what());
+  }
+}
+
 bool looks_like_system(std::string_view bytes, const std::string& source) {
   if (holds(bytes, "ifsm-model")) return false;
   if (holds(bytes, "ifsm-system") || ending_of(source) == ".ifs" || ending_of(source) == ".flame") return true;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <ifsm.hpp>
 
@@ -18,6 +19,10 @@ ifsm::System load_system(const std::string& source, const std::optional<std::str
 
 // The same of bytes that were read from `source`.
 ifsm::System parse_system(std::string_view bytes, const std::string& source, const std::optional<std::string>& name);
+
+// The names of the systems in bytes that were read from `source`; without names a single empty one. Throws
+// Failure{Input}.
+std::vector<std::string> names_in(std::string_view bytes, const std::string& source);
 
 // Whether bytes mean to be a system, rather than a model or points: what they say, or how the file is called.
 bool looks_like_system(std::string_view bytes, const std::string& source);

@@ -114,7 +114,7 @@ void tell(const InfoArguments& arguments, const Json& report, std::string (*in_w
 
 void tell_system(const InfoArguments& arguments, std::string_view bytes) {
   const std::string source = input_name(arguments.model);
-  const auto names = ifsm::system_names({bytes.begin(), bytes.end()});
+  const auto names = names_in(bytes, source);
   if (names.size() > 1 && !arguments.name) return tell(arguments, report_of_file(source, names), file_in_words);
   const auto system = parse_system(bytes, source, arguments.name);
   tell(arguments, report_of_system(source, system), system_in_words);

@@ -113,6 +113,15 @@ struct Result {
   Json report;
 };
 
+// What the system itself is to blame for: no attractor; or, of space, what only the plane has.
+void refuse_system(const ifsm::Error& error, const RenderArguments& arguments) {
+  if (error.argument != "system") return;
+  if (error.status == IFSM_ERROR_SHAPE)
+    throw Failure(Exit::Usage, "--colour " + arguments.colour + ": " + error.what());
+  if (error.status == IFSM_ERROR_RANGE || error.status == IFSM_ERROR_NUMERICAL)
+    throw Failure(Exit::Input, arguments.system + ": " + error.what());
+}
+
 Result picture(const ifsm::System& system, const ifsm::PictureOptions& options) {
   const auto drawn = system.render(options);
   const auto& told = drawn.report;
@@ -165,11 +174,14 @@ void run(const RenderArguments& arguments, Session& session) {
   const auto system = load_system(arguments.system, arguments.name);
   const std::string title = title_of_system(arguments.system, arguments.name);
   Result result;
-  {
+  try {
     Job job(session, arguments);
     job.attach(options);
     result = format == "png" ? picture(system, options) : points(system, options, format, title);
     job.confirm();
+  } catch (const ifsm::Error& error) {
+    refuse_system(error, arguments);
+    throw;
   }
   write_file(arguments.output, result.bytes);
   const auto report = [&] {

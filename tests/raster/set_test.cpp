@@ -246,8 +246,8 @@ TEST(SetPixels, NeverContradictThePlainSearchInOddSystems) {
 TEST(SetPixels, AreTheSameOnEveryVectorTarget) {
   for (const char* name : {"fern", "gasket_right", "fern_cyclosorus", "levy", "tree_type2"}) {
     const auto system = named_system(name);
-    const Window whole = odd(*system, 200),
-                 part = about(point_of(*system), system->enclosure().axes.norm() / 1e4, 150, 100);
+    const Window whole = odd(*system, 140),
+                 part = about(point_of(*system), system->enclosure().axes.norm() / 1e3, 70, 50);
     const auto best = set_of(*system, whole), best_of_part = set_of(*system, part);
     int targets = 0;
     for (std::int64_t every = hwy::SupportedTargets(), lowest = 0; every != 0; every &= every - 1) {
