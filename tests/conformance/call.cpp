@@ -60,6 +60,7 @@ ifsm_curve Call::read_curve(const Json& given) {
 }
 
 const ifsm_curve* Call::curve(const char* name) {
+  if (argument(name).is_null()) return nullptr;
   auto& curve = stored<ifsm_curve>(name);
   curve = read_curve(argument(name));
   return &curve;

@@ -32,12 +32,13 @@ class Call {
   template <class T>
   T integer(const char* name) {
     if constexpr (std::is_unsigned_v<T>)
-      return unsigned_of(argument(name));
+      return static_cast<T>(unsigned_of(argument(name)));
     else
       return static_cast<T>(signed_of(argument(name)));
   }
   double real(const char* name) { return real_of(argument(name)); }
   const char* text(const char* name) {
+    if (argument(name).is_null()) return nullptr;
     auto& text = stored<std::string>(name);
     text = argument(name).at("text").get<std::string>();
     return text.c_str();
@@ -91,7 +92,7 @@ class Call {
     keep_ = [this, &made](const std::string& as) { objects_.keep(as, made); };
     return &made;
   }
-  void returns(const char* text) { returned_ = Json{{"text", text}}; }
+  void returns(const char* text) { returned_ = json_of(text); }
   void returns(std::int32_t number) { returned_ = number; }
 
  private:

@@ -25,6 +25,8 @@ const std::vector<Json>& made() {
     conformance::add_questions(script);
     conformance::add_fits(script);
     conformance::add_deformers(script);
+    conformance::add_systems(script);
+    conformance::add_pictures(script);
     return script.steps();
   }();
   return steps;

@@ -10,8 +10,8 @@ namespace conformance {
 
 class Call;
 
-// kind: int32, int64, uint64, real, text, handle, doubles, int32s, int64s, bytess, curve, curves, known, callback,
-// output; made and told are results. low, high, null: as in tests/abi/functions.csv.
+// kind: int32, int64, uint32, uint64, real, text, handle, doubles, int32s, int64s, uint32s, bytess, curve, curves,
+// known, callback, output; made and told are results. low, high, null: as in tests/abi/functions.csv.
 struct Parameter {
   std::string name, kind, low, high, null;
 };

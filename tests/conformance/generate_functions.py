@@ -17,7 +17,7 @@ from header import Header, declarations, split_name  # noqa: E402
 HIDDEN = re.compile(r"ifsm_last_error|ifsm_set_interrupt|.*_destroy|.*_options_init")  # as in bindings/ifsm.i
 RENAMED = {"kept_count": "count", "point_count": "points"}  # options.h gives fields other names where another parameter has theirs
 IN_TABLE = {"reserved", "struct_size"}
-ELEMENTS = {"double": "double", "int32_t": "int32", "int64_t": "int64", "uint8_t": "bytes"}
+ELEMENTS = {"double": "double", "int32_t": "int32", "int64_t": "int64", "uint32_t": "uint32", "uint8_t": "bytes"}
 
 
 def flattened(path):

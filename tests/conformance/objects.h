@@ -13,6 +13,7 @@ inline ifsm_status destroy(ifsm_filter handle) { return ifsm_filter_destroy(hand
 inline ifsm_status destroy(ifsm_model handle) { return ifsm_model_destroy(handle); }
 inline ifsm_status destroy(ifsm_fit handle) { return ifsm_fit_destroy(handle); }
 inline ifsm_status destroy(ifsm_deformer handle) { return ifsm_deformer_destroy(handle); }
+inline ifsm_status destroy(ifsm_system handle) { return ifsm_system_destroy(handle); }
 inline ifsm_status destroy(ifsm_cancel handle) { return ifsm_cancel_destroy(handle); }
 
 class Objects {

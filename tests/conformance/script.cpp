@@ -9,9 +9,21 @@ namespace {
 
 // Functions whose numbers go through the platform's log, exp, cos and so on.
 bool uses_libm(const std::string& name) {
-  static const std::set<std::string> all = {"ifsm_model_dimension",  "ifsm_model_spectrum",   "ifsm_model_refine",
-                                            "ifsm_fit_sparse",       "ifsm_fit_curve",        "ifsm_fit_filter",
-                                            "ifsm_deformer_restyle", "ifsm_deformer_texture", "ifsm_train"};
+  static const std::set<std::string> all = {"ifsm_model_dimension",
+                                            "ifsm_model_spectrum",
+                                            "ifsm_model_refine",
+                                            "ifsm_fit_sparse",
+                                            "ifsm_fit_curve",
+                                            "ifsm_fit_filter",
+                                            "ifsm_deformer_restyle",
+                                            "ifsm_deformer_texture",
+                                            "ifsm_train",
+                                            "ifsm_system_from_parameters",
+                                            "ifsm_system_parameters",
+                                            "ifsm_system_ball",
+                                            "ifsm_system_diameter",
+                                            "ifsm_system_similarity_dimension",
+                                            "ifsm_system_box_dimension"};
   return all.contains(name);
 }
 
@@ -42,6 +54,7 @@ Json wide(const std::vector<std::int64_t>& numbers) {
   for (const std::int64_t number : numbers) list.push_back(json_of(number));
   return {{"int64", list}};
 }
+Json symbols(const std::vector<std::int32_t>& numbers) { return json_of(numbers); }
 Json output(const char* type) { return {{"output", type}}; }
 Json curve(const std::vector<double>& points, int dimension, bool closed) {
   return {{"points", reals(points)}, {"dimension", dimension}, {"closed", closed}};

@@ -48,6 +48,7 @@ Json text(const std::string& text);
 Json real(double number);
 Json reals(const std::vector<double>& numbers);
 Json wide(const std::vector<std::int64_t>& numbers);
+Json symbols(const std::vector<std::int32_t>& numbers);
 Json output(const char* type);
 Json curve(const std::vector<double>& points, int dimension = 2, bool closed = false);
 Json curves(std::initializer_list<Json> curves);
@@ -59,6 +60,8 @@ void add_models(Script& script);
 void add_questions(Script& script);
 void add_fits(Script& script);
 void add_deformers(Script& script);
+void add_systems(Script& script);
+void add_pictures(Script& script);
 
 // A walk of 17 points whose way back crosses the way there: every place of a model of n = 3, N = 2 at level 3.
 std::vector<double> walk();

@@ -36,6 +36,11 @@ Json json_of(const std::int32_t& number) {
   return number;
 }
 
+template <>
+Json json_of(const char* const& text) {
+  return {{"text", text}};
+}
+
 Json json_of(const std::vector<double>& numbers) {
   Json list = Json::array();
   for (const double number : numbers) list.push_back(json_of(number));
@@ -43,6 +48,8 @@ Json json_of(const std::vector<double>& numbers) {
 }
 
 Json json_of(const std::vector<std::int32_t>& numbers) { return {{"int32", numbers}}; }
+
+Json json_of(const std::vector<std::uint32_t>& numbers) { return {{"uint32", numbers}}; }
 
 Json json_of(const std::vector<std::uint8_t>& bytes) {
   constexpr char digits[] = "0123456789abcdef";
@@ -80,6 +87,11 @@ void read(const Json& value, std::vector<std::int32_t>& numbers) {
 void read(const Json& value, std::vector<std::int64_t>& numbers) {
   numbers.clear();
   for (const Json& number : tagged(value, "int64")) numbers.push_back(signed_of(number));
+}
+
+void read(const Json& value, std::vector<std::uint32_t>& numbers) {
+  numbers.clear();
+  for (const Json& number : tagged(value, "uint32")) numbers.push_back(static_cast<std::uint32_t>(unsigned_of(number)));
 }
 
 void read(const Json& value, std::vector<std::uint8_t>& bytes) {

@@ -19,9 +19,12 @@ template <>
 Json json_of(const std::int32_t& number);
 template <>
 Json json_of(const std::int64_t& number);
+template <>
+Json json_of(const char* const& text);
 
 Json json_of(const std::vector<double>& numbers);
 Json json_of(const std::vector<std::int32_t>& numbers);
+Json json_of(const std::vector<std::uint32_t>& numbers);
 Json json_of(const std::vector<std::uint8_t>& bytes);
 
 // And back.
@@ -31,6 +34,7 @@ std::uint64_t unsigned_of(const Json& value);
 void read(const Json& value, std::vector<double>& numbers);
 void read(const Json& value, std::vector<std::int32_t>& numbers);
 void read(const Json& value, std::vector<std::int64_t>& numbers);
+void read(const Json& value, std::vector<std::uint32_t>& numbers);
 void read(const Json& value, std::vector<std::uint8_t>& bytes);
 
 }  // namespace conformance
