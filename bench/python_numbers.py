@@ -187,6 +187,10 @@ def leaks():
     edits = deformer.to_bytes()
     fit = ifsm.fit_curve([points], fixed_filter=True)
     data = model.to_bytes()
+    gasket = ifsm.systems.gasket()
+    maps, parameters, saved = gasket.maps, gasket.parameters, gasket.to_bytes()
+    line = ifsm.systems.koch()
+    own = line.model(levels=1)
 
     def failing(call):
         def attempt():
@@ -219,6 +223,17 @@ def leaks():
         lambda: deformer.changed(0), "deformer crossings": deformer.crossings, "snapshot": deformer.snapshot,
         "report": lambda: fit.report, "fit.model": fit.model, "fit.sketch": fit.sketch, "fit.budget": fit.budget,
         "fit.parameters": fit.parameters, "covariance": fit.covariance, "curve_covariance": lambda: fit.curve_covariance(0.5),
+        "System": lambda: ifsm.System(maps, [1, 2, 3]), "from_parameters": lambda: ifsm.System.from_parameters(parameters),
+        "named": ifsm.systems.fern, "catalog": ifsm.systems.catalog, "maps": lambda: gasket.maps, "system parameters":
+        lambda: gasket.parameters, "probabilities": lambda: gasket.probabilities, "fixed_points":
+        lambda: gasket.fixed_points, "word": lambda: gasket.word([0, 1]), "point": lambda: gasket.point([0, 1]),
+        "addresses": lambda: gasket.addresses([0.5, 0], 4), "box": gasket.box, "moments": lambda: gasket.moments(2),
+        "similarity_dimension": gasket.similarity_dimension, "system to_bytes": gasket.to_bytes, "system from_bytes":
+        lambda: ifsm.System.from_bytes(saved), "system model": lambda: line.model(levels=1), "from_model":
+        lambda: ifsm.System.from_model(own), "histogram": lambda: gasket.histogram(4, points=9, full=True), "render":
+        lambda: gasket.render(4, points=9, palette=["#fff", "#000"]), "tone_map": lambda: ifsm.tone_map([[1, 2]]),
+        "sample": lambda: gasket.sample(9), "sample_addresses": lambda: gasket.sample_addresses(9, 3),
+        "refused picture": failing(lambda: gasket.render(0)), "refused maps": failing(lambda: ifsm.System([[1, 2]])),
         "refused value": failing(lambda: model.points(levels=99)), "refused type": failing(lambda: model("a")),
         "refused array": failing(lambda: ifsm.Model([[1, 2], [3, np.nan]])),
     }
@@ -227,6 +242,9 @@ def leaks():
         "fit_curve": lambda: ifsm.fit_curve([points], known=[ifsm.Known(fixed_ends=True)]), "fit_filter":
         lambda: ifsm.fit_filter([points]), "train": lambda: ifsm.train([points], rounds=1), "cancelled fit":
         failing(lambda: ifsm.fit(points, progress=lambda *_: True)), "keep details": lambda: model.keep(details=3),
+        "set": lambda: gasket.set(9), "distances": lambda: gasket.distances(9), "ball": gasket.ball, "diameter":
+        gasket.diameter, "box_dimension": lambda: gasket.box_dimension(6), "cancelled picture":
+        failing(lambda: gasket.render(99, progress=lambda *_: True)),
     }
     worst = 0
     for calls, times in ((many, 100_000), (few, 1_000)):

@@ -177,10 +177,10 @@ class Pictured(Handled):
         sizes = ("size[0]", "size[1]") if _is_list(size) else ("size", "size")
         names = {**_SIDES, "width": sizes[0], "height": sizes[1]}
         with naming(**names), _progress.telling(progress, function) as told:
-            asked = (native, width, height, threads, *sides, *options, None, told)
-            call(*asked, None)  # refuses what is wrong before memory is asked for
+            draw = lambda sides, values: call(native, width, height, threads, *sides, *options, None, told, values)[0]
+            chosen = draw(sides, None)  # refuses what is wrong before memory is asked for
             values = np.empty((height, width, *channels), dtype)
-            report = call(*asked, values)[0]
+            report = draw((chosen.left, chosen.bottom, chosen.right, chosen.top), values)
         return (values, _report(report)) if full else values
 
     def sample(self, points=_USUAL_SAMPLE, *, seed=0, threads=0, progress=None):

@@ -312,7 +312,7 @@ def system(system, *, ax=None, size=1024, window=None, **picture):
     --------
     >>> axes = ifsm.plot.system(ifsm.systems.fern(), size=200, palette="fern")
     >>> axes.images[0].get_array().shape
-    (200, 110, 4)
+    (200, 97, 4)
     """
     function = "ifsm.plot.system"
     shown = _drawing.system_of(system, function)

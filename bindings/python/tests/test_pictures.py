@@ -48,6 +48,13 @@ def test_row_0_is_on_top_and_points_are_where_they_belong(gasket):
     assert np.abs(counts - expected[::-1]).sum() <= 50_000 / 1000
 
 
+def test_the_window_that_is_chosen_is_the_same_when_it_is_given(fern):
+    for system in (fern, ifsm.System([[.5, 0, 1e6, 0, .5, 1e6]]), ifsm.systems.cantor_set()):
+        counts, report = system.histogram(50, full=True)
+        again, told = system.histogram(50, window=report.window, full=True)
+        assert np.array_equal(again, counts) and told == report and report.inside == report.points
+
+
 def test_a_window_may_miss_the_attractor(gasket):
     counts, report = gasket.histogram(16, window=(5, 5, 6, 6), full=True)
     assert not counts.any() and report.inside == 0 and report.window == (5, 5, 6, 6) and report.points > 0
