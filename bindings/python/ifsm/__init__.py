@@ -1,4 +1,4 @@
-"""Fractal detail models of measured curves: fit, sketch, deform, animate.
+"""Fractal detail models of measured curves: fit, sketch, deform, animate. Iterated function systems and their pictures.
 
 >>> points = np.column_stack([np.arange(257), np.cumsum(np.sin(np.arange(257) ** 2))])
 >>> model = ifsm.fit(points, budget=64)              # ordered samples in, a model out
@@ -6,6 +6,10 @@
 >>> bent = model.deformer().move(0, 2, [0, 50])      # bend it by a control point; texture follows
 >>> bent.samples().shape
 (257, 2)
+
+>>> fern = ifsm.systems.fern()                       # an iterated function system; ifsm.System makes others
+>>> fern.render((300, 500), palette="fern").shape    # its attractor, in colours
+(500, 300, 4)
 
 Arrays are NumPy's, of shape (points, dimension). Whatever is refused raises a subclass of `ifsm.Error` that names the
 argument, the index and the value. Models and filters are immutable and may be shared between threads; long calls run
