@@ -70,11 +70,10 @@ bool has_window(const ifsm_picture_options& read) {
   return read.left != 0 || read.bottom != 0 || read.right != 0 || read.top != 0;
 }
 
-std::optional<Palette> palette_of(const uint8_t* stops, int64_t count) {
+std::vector<Rgb> colours_of(const uint8_t* stops, int64_t count) {
   constexpr int64_t bytes_a_colour = 3, most_colours = 256;
   in_range(count, 0, bytes_a_colour * most_colours, "stop_count");
   const auto given = input(stops, count, "stops", "stop_count");
-  if (count == 0) return std::nullopt;
   if (count % bytes_a_colour != 0)
     throw Error(Status::range, "stop_count",
                 "stop_count is " + std::to_string(count) + "; give three bytes a colour, of 1 to 256 colours.")
@@ -82,7 +81,7 @@ std::optional<Palette> palette_of(const uint8_t* stops, int64_t count) {
   std::vector<Rgb> colours;
   for (int64_t k = 0; k < count; k += bytes_a_colour)
     colours.push_back({given.data[k], given.data[k + 1], given.data[k + 2]});
-  return Palette(colours);
+  return colours;
 }
 
 double in_range_or(double value, double low, double high, double otherwise, const char* argument) {
@@ -107,7 +106,8 @@ class Request {
     in_range_or(read_.tolerance, 0, 1, 0, "tolerance");
     shows_ = choice(read_.colour, Shows::distance, "colour");
     const PaletteName name = choice(read_.palette, PaletteName::ink, "palette");
-    own_ = palette_of(read_.stops, read_.stop_count);
+    stops_ = colours_of(read_.stops, read_.stop_count);
+    if (!stops_.empty()) own_.emplace(stops_);
     palette_ = own_ ? &*own_ : &palette(name);
     in_range(read_.symbols, 0, 16, "symbols");
     in_range(read_.oversample, 0, std::min(8, most_pixels / std::max(width_, height_)), "oversample");
@@ -134,7 +134,7 @@ class Request {
   int64_t points(int64_t otherwise) const { return read_.points == 0 ? otherwise : read_.points; }
   double tolerance(double otherwise) const { return read_.tolerance == 0 ? otherwise : read_.tolerance; }
 
-  Look look() const { return {static_cast<Colouring>(shows_), read_.symbols, palette_}; }
+  Look look() const { return {static_cast<Colouring>(shows_), read_.symbols, palette_, stops_}; }
 
   Rgba background() const {
     const auto byte = [&](int shift) { return static_cast<uint8_t>(read_.background >> shift); };
@@ -179,6 +179,7 @@ class Request {
   int32_t width_, height_;
   int threads_;
   Shows shows_;
+  std::vector<Rgb> stops_;
   std::optional<Palette> own_;
   const Palette* palette_;
   std::shared_ptr<CancelToken> token_;

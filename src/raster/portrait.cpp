@@ -71,6 +71,11 @@ class Colours {
  private:
   static constexpr std::size_t shades = 1024;
 
+  Rgb colour_of_letter(std::size_t i) const {
+    if (look_.letter_colours.empty()) return letter_colour(static_cast<int>(i));
+    return look_.letter_colours[i % look_.letter_colours.size()];
+  }
+
   Look look_;
   std::vector<double> probabilities_, before_;
   std::vector<Light> table_;

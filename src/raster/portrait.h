@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "base/cancel.h"
 #include "raster/chaos.h"
@@ -18,6 +19,7 @@ struct Look {
   Colouring colouring = Colouring::tone;
   int letters = 0;  // of the address, up to 16; 0: all
   const Palette* palette = nullptr;
+  std::span<const Rgb> letter_colours = {};  // in turn, instead of letter_colour()'s
 };
 
 struct Portrait {

@@ -335,7 +335,10 @@ SystemPtr named_system(std::string_view name) {
   }
   std::string names;
   for (const Known& each : known()) names += (names.empty() ? "" : ", ") + std::string(each.named.name);
-  throw Error(Status::range, "name", "There is no system \"" + std::string(name) + "\"; there are " + names + ".");
+  std::string shorts;
+  for (const auto& [alias, meant] : aliases) shorts += (shorts.empty() ? "" : ", ") + std::string(alias);
+  throw Error(Status::range, "name",
+              "There is no system \"" + std::string(name) + "\"; there are " + names + "; for short " + shorts + ".");
 }
 
 }  // namespace ifsm::core

@@ -268,6 +268,62 @@ TEST(Cpp, IsCancelledByACallbackOrAToken) {
   EXPECT_THROW(wavy_model().keep(ifsm::within(0.05).telling(fail)), std::domain_error) << "comes out unchanged";
 }
 
+TEST(Cpp, MakesAsksAndSavesSystems) {
+  const ifsm::System gasket(2, {.5, 0, 0, 0, .5, 0, .5, 0, .5, 0, .5, 0, .5, 0, 0, 0, .5, .5});
+  EXPECT_EQ(gasket.describe().contractive, 1);
+  EXPECT_NEAR(gasket.similarity_dimension(), std::log2(3.), 1e-14);
+  EXPECT_EQ(gasket.point({1}), (std::vector<double>{1, 0}));
+  EXPECT_EQ(gasket.addresses({.5, 0}, 1), (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(gasket.word({1}), (std::vector<double>{.5, 0, .5, 0, .5, 0}));
+  EXPECT_NEAR(gasket.diameter(), std::sqrt(2.), 1e-8);
+  EXPECT_NEAR(gasket.moments(1)[1], 1. / 3, 1e-14);
+  EXPECT_TRUE(gasket.witness().empty());
+  EXPECT_EQ(ifsm::System::load(gasket.save(ifsm::Format::cbor)).maps(), gasket.maps());
+  const auto text = gasket.save(ifsm::Format::fractint, "mine");
+  EXPECT_EQ(ifsm::system_names(text), std::vector<std::string>{"mine"});
+  EXPECT_EQ(ifsm::System::load(text, "mine").probabilities(), gasket.probabilities());
+  const ifsm::System again = ifsm::System::from_parameters(2, gasket.parameters(), gasket.probabilities());
+  EXPECT_EQ(again.fixed_points(), gasket.fixed_points());
+  const ifsm::Model model = gasket.model(ifsm::Topology::square, 3);
+  EXPECT_NEAR(ifsm::System::from_model(model).box()[2], 1, 1e-8);
+  EXPECT_EQ(gasket.box_dimension(6).counts.size(), 6U);
+  EXPECT_GT(ifsm::system_catalog().size(), 30U);
+}
+
+TEST(Cpp, DrawsSystems) {
+  const ifsm::System fern = ifsm::System::named("fern");
+  ifsm::PictureOptions options;
+  options.width = 20, options.height = 10, options.points = 5000, options.seed = 3;
+  double told = 0;
+  options.progress = [&](double fraction, const std::string&) {
+    told = fraction;
+    return false;
+  };
+  const auto counts = fern.histogram(options);
+  EXPECT_EQ(counts.report.inside, 5000);
+  EXPECT_EQ(told, 1);
+  std::int64_t sum = 0;
+  for (const std::uint32_t count : counts.values) sum += count;
+  EXPECT_EQ(sum, 5000);
+  EXPECT_EQ(ifsm::tone_map(counts.values).size(), 800U);
+  EXPECT_EQ(fern.render(options).values.size(), 800U);
+  EXPECT_EQ(fern.set(options).values.size(), 200U);
+  EXPECT_EQ(fern.distances(options).values.size(), 200U);
+  EXPECT_EQ(fern.sample(options).size(), 10000U);
+  EXPECT_EQ(fern.sample_addresses(2, options).size(), 10000U);
+  options.progress = [](double, const std::string&) -> bool { throw std::out_of_range("mine"); };
+  EXPECT_THROW(fern.render(options), std::out_of_range);
+  options.progress = {};
+  options.colour = ifsm::Colour::symbol, options.stops = {1, 2, 3};
+  bool own = false;  // of map 0, which most points come from
+  const auto symbols = fern.render(options).values;
+  for (std::size_t pixel = 0; pixel < symbols.size(); pixel += 4)
+    own = own || (symbols[pixel + 3] == 255 && symbols[pixel] < 128);
+  EXPECT_TRUE(own);
+  options.stops = {1, 2};
+  EXPECT_THROW(fern.render(options), ifsm::Error);
+}
+
 TEST(Cpp, RefusesPointsThatAreNotWhole) {
   const std::vector<double> odd{1, 2, 3};
   EXPECT_THROW(ifsm::Curve(odd, 2), std::invalid_argument);
