@@ -51,6 +51,21 @@ inline void copy_out(const Counting& game, std::int64_t count, std::uint32_t* to
   game.told->met = std::count_if(counts.begin(), counts.end(), [](std::uint32_t c) { return c > 0; });
 }
 
+// A sample to be, likewise.
+struct Sampling {
+  const System* system;
+  std::uint64_t seed;
+  std::int64_t points, length;
+  Watch* watch;
+};
+
+inline void copy_out(const Sampling& s, std::int64_t, double* to) {
+  tell_points(*s.system, s.seed, s.points, to, 0, nullptr, *s.watch);
+}
+inline void copy_out(const Sampling& s, std::int64_t, std::int32_t* to) {
+  tell_points(*s.system, s.seed, s.points, nullptr, s.length, to, *s.watch);
+}
+
 }  // namespace ifsm::core
 
 namespace {
@@ -254,6 +269,19 @@ Picture drawn(const System& system, const Request& request, const std::optional<
   return std::move(portrait.pixels);
 }
 
+// Points, or the letters of their addresses, into what is known to have room.
+template <class T>
+void sample_into(const System& system, const Request& request, int64_t values_a_point, int64_t length,
+                 const Output<T>& to, int64_t* count) {
+  constexpr int64_t usual_sample = 65536;
+  static_cast<void>(system.enclosure());  // contractive, also when only the count is wanted
+  const int64_t points = request.points(usual_sample);
+  const Threads threads(request.threads());
+  Watch watch = request.watch();
+  deliver(checked_product(points, values_a_point, "points"), to, required(count, "count"),
+          [&] { return Sampling{&system, request.seed(), points, length, &watch}; });
+}
+
 // Around the attractor's box: a ball that holds it, and whose middle is where one looks.
 View view_of(const System& system, const Direction& direction) {
   const double tolerance = Request::box_tolerance(system);
@@ -348,29 +376,11 @@ ifsm_status ifsm_tone_map(const uint32_t* counts, int64_t number, const ifsm_pic
   });
 }
 
-namespace {
-
-constexpr int64_t usual_sample = 65536;
-
-template <class T, class Take>
-void sample_into(const System& system, const Request& request, int64_t values_a_point, int64_t length,
-                 const Output<T>& to, int64_t* count, const Take& take) {
-  static_cast<void>(system.enclosure());  // contractive, also when only the count is wanted
-  const int64_t points = request.points(usual_sample);
-  const Threads threads(request.threads());
-  Watch watch = request.watch();
-  deliver(checked_product(points, values_a_point, "points"), to, required(count, "count"),
-          [&] { return take(chaos_points(system, request.seed(), points, length, watch)); });
-}
-
-}  // namespace
-
 ifsm_status ifsm_system_sample(ifsm_system handle, const ifsm_picture_options* options, double* points,
                                int64_t capacity, int64_t* count) {
   return guarded(__func__, [&] {
     const auto system = borrow(handle);
-    sample_into(*system, Request(options), system->dimension(), 0, output(points, capacity, "points"), count,
-                [](ChaosPoints made) { return std::move(made.points); });
+    sample_into(*system, Request(options), system->dimension(), 0, output(points, capacity, "points"), count);
   });
 }
 
@@ -380,7 +390,6 @@ ifsm_status ifsm_system_sample_addresses(ifsm_system handle, const ifsm_picture_
     const auto system = borrow(handle);
     constexpr int32_t longest = 1024;
     in_range(length, 1, longest, "length");
-    sample_into(*system, Request(options), length, length, output(symbols, capacity, "symbols"), count,
-                [](ChaosPoints made) { return std::move(made.letters); });
+    sample_into(*system, Request(options), length, length, output(symbols, capacity, "symbols"), count);
   });
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <thread>
 
 #include "base/error.h"
@@ -45,9 +44,8 @@ class Sampler {
   Sampler(const System& system, std::uint64_t seed, std::int64_t length)
       : maps_(system), start_(system), seed_(seed), length_(length) {}
 
-  // The chunk's points, as many as there is room for.
-  void play(std::int64_t chunk, std::span<double> points, std::int32_t* letters, const Watch& watch) const {
-    const std::size_t count = points.size() / d;
+  // So many of the chunk's points.
+  void play(std::int64_t chunk, std::size_t count, double* points, std::int32_t* letters, const Watch& watch) const {
     const auto forget = static_cast<std::size_t>(start_.steps), steps = (count + orbit_count - 1) / orbit_count;
     Letters taken(length_, static_cast<std::int64_t>(forget + steps), start_.letter);
     walk<d>(maps_, start_, seed_, chunk, static_cast<std::int64_t>(steps), watch,
@@ -56,7 +54,7 @@ class Sampler {
               if (step < start_.steps) return;
               const std::size_t place = (static_cast<std::size_t>(step) - forget) * orbit_count + orbit;
               if (place >= count) return;
-              std::copy_n(x.begin(), d, &points[place * d]);
+              if (points != nullptr) std::copy_n(x.begin(), d, points + place * d);
               if (taken.wanted())
                 taken.tell(orbit, static_cast<std::size_t>(step), letters + place * static_cast<std::size_t>(length_));
             });
@@ -70,36 +68,45 @@ class Sampler {
 };
 
 template <std::size_t d>
-ChaosPoints sample(const System& system, std::uint64_t seed, std::int64_t count, std::int64_t length, Watch& watch) {
-  const Sampler<d> sampler(system, seed, length);
-  ChaosPoints told;
-  told.points.resize(static_cast<std::size_t>(count) * d);
-  told.letters.resize(static_cast<std::size_t>(count * length));
+void sample(const System& system, std::uint64_t seed, std::int64_t count, double* points, std::int64_t length,
+            std::int32_t* letters, Watch& watch) {
+  const Sampler<d> sampler(system, seed, letters == nullptr ? 0 : length);
   const std::int64_t chunks = (count + points_per_chunk - 1) / points_per_chunk;
   const auto round = std::max(std::int64_t{std::thread::hardware_concurrency()}, std::int64_t{1});
   for (std::int64_t done = 0; done < chunks; done += round) {  // between rounds, progress is told
     parallel_for(std::min(round, chunks - done), 0, [&](std::int64_t within) {
       const std::int64_t first = (done + within) * points_per_chunk;
-      const std::int64_t points = std::min(points_per_chunk, count - first);
-      sampler.play(done + within,
-                   {told.points.data() + static_cast<std::size_t>(first) * d, static_cast<std::size_t>(points) * d},
-                   told.letters.data() + first * length, watch);
+      const auto wanted = static_cast<std::size_t>(std::min(points_per_chunk, count - first));
+      sampler.play(done + within, wanted, points == nullptr ? nullptr : points + first * static_cast<std::int64_t>(d),
+                   letters == nullptr ? nullptr : letters + first * length, watch);
     });
     watch.report(static_cast<double>(std::min(done + round, chunks)) / static_cast<double>(chunks), "points");
   }
   watch.finish();
-  return told;
 }
 
 }  // namespace
 
-ChaosPoints chaos_points(const System& system, std::uint64_t seed, std::int64_t count, std::int64_t length,
-                         Watch& watch) {
+void tell_points(const System& system, std::uint64_t seed, std::int64_t count, double* points, std::int64_t length,
+                 std::int32_t* letters, Watch& watch) {
   static_cast<void>(system.enclosure());  // refuses what has no attractor
   in_range(count, 1, std::int64_t{1} << 40, "count");
   in_range(length, 0, most_letters, "length");
-  return system.dimension() == 2 ? sample<2>(system, seed, count, length, watch)
-                                 : sample<3>(system, seed, count, length, watch);
+  if (system.dimension() == 2)
+    sample<2>(system, seed, count, points, length, letters, watch);
+  else
+    sample<3>(system, seed, count, points, length, letters, watch);
+}
+
+ChaosPoints chaos_points(const System& system, std::uint64_t seed, std::int64_t count, std::int64_t length,
+                         Watch& watch) {
+  in_range(count, 1, std::int64_t{1} << 40, "count");
+  in_range(length, 0, most_letters, "length");
+  ChaosPoints told;
+  told.points.resize(static_cast<std::size_t>(count * system.dimension()));
+  told.letters.resize(static_cast<std::size_t>(count * length));
+  tell_points(system, seed, count, told.points.data(), length, length == 0 ? nullptr : told.letters.data(), watch);
+  return told;
 }
 
 }  // namespace ifsm::core
