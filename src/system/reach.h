@@ -32,8 +32,8 @@ double farthest(const System& system, const Vector3& from, double tolerance);
 // The distance of its two points that are farthest from each other.
 double diameter(const System& system, double tolerance);
 
-// Holds the attractor, and so do balls of the same centre that are smaller by no more than the tolerance. The centre is
-// that of the smallest ball, up to a hundredth of the radius.
+// Holds the attractor, and so do balls of the same centre that are smaller by no more than the tolerance. The radius is
+// above that of the smallest ball by a hundredth of it at most: measured, not proven.
 Ball enclosing_ball(const System& system, double tolerance);
 
 }  // namespace ifsm::core
