@@ -226,6 +226,18 @@ ifsm_status histogram(World& world, std::uint64_t*) {
   return ifsm_system_histogram(world.system, &options, &report, counts, 64, &count);
 }
 
+// Of so many pixels that they are counted where they go.
+ifsm_status histogram_in_place(World& world, std::uint64_t*) {
+  constexpr std::int32_t side = 2900;
+  static std::vector<std::uint32_t> counts(std::size_t{side} * side);
+  ifsm_picture_options options = small_picture(0);
+  options.width = side;
+  ifsm_picture_report report{};
+  report.struct_size = sizeof report;
+  std::int64_t count = 0;
+  return ifsm_system_histogram(world.system, &options, &report, counts.data(), std::int64_t{side} * side, &count);
+}
+
 ifsm_status set(World& world, std::uint64_t*) {
   const ifsm_picture_options options = small_picture(0);
   ifsm_picture_report report{};
@@ -650,6 +662,7 @@ const Scenario scenarios[] = {
      drop_nothing},
     {"system_histogram", "ifsm_system_histogram", 1, 1, histogram, drop_nothing},
     {"system_histogram_two_threads", "ifsm_system_histogram", 2, 1, histogram, drop_nothing},
+    {"system_histogram_in_place", "ifsm_system_histogram", 1, 3, histogram_in_place, drop_nothing},
     {"system_set", "ifsm_system_set", 1, 1, set, drop_nothing},
     {"system_set_two_threads", "ifsm_system_set", 2, 1, set, drop_nothing},
     {"system_distances", "ifsm_system_distances", 1, 17, picture_distances, drop_nothing},
