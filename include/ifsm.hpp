@@ -1139,9 +1139,9 @@ class System {
   }
 
   // From a file's bytes, of any format; of several systems the one of that name.
-  static System load(const std::vector<std::uint8_t>& bytes) { return load(bytes, nullptr); }
+  static System load(const std::vector<std::uint8_t>& bytes) { return loaded(bytes, nullptr); }
   static System load(const std::vector<std::uint8_t>& bytes, const std::string& name) {
-    return load(bytes, name.c_str());
+    return loaded(bytes, name.c_str());
   }
   std::vector<std::uint8_t> save(Format format, const std::string& name = "system") const {
     return detail::fetch<std::uint8_t>(
@@ -1266,7 +1266,7 @@ class System {
     return System(made);
   }
 
-  static System load(const std::vector<std::uint8_t>& bytes, const char* name) {
+  static System loaded(const std::vector<std::uint8_t>& bytes, const char* name) {
     return make(
         [&](ifsm_system* made) { return ifsm_system_load(bytes.data(), detail::size_of(bytes.size()), name, made); });
   }
