@@ -1602,7 +1602,8 @@ typedef struct ifsm_picture_options {
   double tolerance; /* of sets and distances, in pixels, up to 1; 0: 1/64 of sets, 1/8 of distances */
   int32_t colour;   /* IFSM_COLOUR_… */
   int32_t palette;  /* IFSM_PALETTE_… */
-  const uint8_t *stops; /* borrowed: red, green, blue of colours equally far apart, instead of the palette; may be NULL */
+  const uint8_t *stops; /* borrowed: red, green, blue of colours equally far apart, instead of the palette; of symbols,
+                            each map's own, in turn; may be NULL */
   int64_t stop_count;   /* bytes: three a colour, 1 … 256 colours; 0 without */
   int32_t symbols;      /* of addresses, 1 … 16; 0: all */
   int32_t oversample;   /* pixels computed for each one, along both sides, 1 … 8; 0: 2, or 1 above 4096 pixels a side */

@@ -38,8 +38,7 @@ class Colours {
     double sum = 0;
     for (const double p : probabilities_) before_.push_back(sum), sum += p;
     if (look.colouring == Colouring::letter)
-      for (std::size_t i = 0; i < system.maps().size(); ++i)
-        table_.push_back(whole(letter_colour(static_cast<int>(i))));
+      for (std::size_t i = 0; i < system.maps().size(); ++i) table_.push_back(whole(colour_of_letter(i)));
     else
       for (std::size_t k = 0; k < shades; ++k)
         table_.push_back(whole(look.palette->at(static_cast<double>(k) / (shades - 1))));

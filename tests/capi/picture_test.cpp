@@ -305,6 +305,23 @@ TEST_F(Pictures, OfSymbolsAndAddressesHaveTheColoursThatTheyPromise) {
   EXPECT_NEAR(middle[14], 70, 1);
 }
 
+// Own colours, in turn, instead of the letters': two of them for three maps.
+TEST_F(Pictures, OfSymbolsTakeOnesOwnColoursInTurn) {
+  const uint8_t stops[] = {10, 20, 30, 200, 100, 0};
+  ifsm_picture_options options = defaults();
+  options.points = 100, options.oversample = 1, options.colour = IFSM_COLOUR_SYMBOL;
+  options.stops = stops, options.stop_count = 6;
+  // Each map's fixed point in a window of its own: all of one letter, and of one pixel, which is the densest.
+  const ifsm_system system = of({0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 2, 0, 0, 0}, {1, 1, 1});
+  for (std::size_t map = 0; map < 3; ++map) {
+    const double left = static_cast<double>(map) - .5;
+    options.left = left, options.bottom = -.5, options.right = left + 1, options.top = .5;
+    options.width = options.height = 1;
+    const uint8_t* own = stops + 3 * (map % 2);
+    EXPECT_EQ(render(system, options), (Bytes{own[0], own[1], own[2], 255})) << map;
+  }
+}
+
 TEST_F(Pictures, AreOversampledAsTheDefaultsSay) {
   const ifsm_system system = gasket();
   ifsm_picture_options options = window(-.1, -.1, 1.1, 1.1, 12, 12);
