@@ -1698,7 +1698,7 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_tone_map(const uint32_t *counts, int64_t
  * converge; the first n are the same however many there are.
  *
  * options   borrowed; NULL for defaults. Seed, points, threads count
- * points    [out] points × d doubles
+ * points    [out] points × d doubles, told where they are: after CANCELLED or MEMORY the array holds anything
  *
  * Errors: INVALID_HANDLE, NULL, RANGE, NOT_FINITE, NUMERICAL, OPTIONS, CAPACITY, CANCELLED, MEMORY. Any thread. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_sample(ifsm_system system, const ifsm_picture_options *options,
@@ -1707,7 +1707,7 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_sample(ifsm_system system, const 
 /* The first symbols of the addresses of the same points.
  *
  * length    1 … 1024
- * symbols   [out] points × length
+ * symbols   [out] points × length, likewise
  *
  * Errors: as ifsm_system_sample. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_sample_addresses(ifsm_system system, const ifsm_picture_options *options,

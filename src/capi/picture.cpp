@@ -278,8 +278,9 @@ void sample_into(const System& system, const Request& request, int64_t values_a_
   const int64_t points = request.points(usual_sample);
   const Threads threads(request.threads());
   Watch watch = request.watch();
-  deliver(checked_product(points, values_a_point, "points"), to, required(count, "count"),
-          [&] { return Sampling{&system, request.seed(), points, length, &watch}; });
+  deliver(checked_product(points, values_a_point, "points"), to, required(count, "count"), [&] {
+    return Sampling{&system, request.seed(), points, length, &watch};
+  });
 }
 
 // Around the attractor's box: a ball that holds it, and whose middle is where one looks.

@@ -22,8 +22,8 @@ constexpr std::int64_t most_letters = 1 << 14;
 ChaosPoints chaos_points(const System& system, std::uint64_t seed, std::int64_t count, std::int64_t length,
                          Watch& watch);
 
-// The same, told where the caller wants them: `count` points, `length` letters of each; either may be NULL. After Cancelled
-// anything may be there.
+// The same, told where the caller wants them: `count` points, `length` letters of each; either may be NULL. After
+// Cancelled anything may be there.
 void tell_points(const System& system, std::uint64_t seed, std::int64_t count, double* points, std::int64_t length,
                  std::int32_t* letters, Watch& watch);
 
