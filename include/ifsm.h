@@ -1,4 +1,4 @@
-/* ifsm.h — fractal detail models of measured curves, behind a stable C ABI.
+/* ifsm.h — fractal detail models of measured curves, and iterated function systems, behind a stable C ABI.
  *
  * A complete program: fit a model to samples, keep its 32 most significant details, read the curve back.
  *
@@ -1678,7 +1678,7 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_distances(ifsm_system system, con
  * rgba      [out] width × height × 4 bytes: red, green, blue (sRGB), alpha, which is not multiplied in
  *
  * Of space, the nearest point of each pixel, darker where it lies behind its surroundings: points of surfaces should be
- * many. Memory: 5 bytes a computed pixel for densities, 36 for symbols and addresses, 12 in space, times the threads but
+ * many. Memory: 5 bytes a computed pixel for densities, 36 for symbols and addresses, 12 in space, times the cores but
  * for densities. Errors: as ifsm_system_set; SHAPE also: sets and distances of space. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_render(ifsm_system system, const ifsm_picture_options *options,
                                                       ifsm_picture_report *report, uint8_t *rgba, int64_t capacity,
