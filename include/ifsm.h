@@ -1609,7 +1609,8 @@ typedef struct ifsm_picture_options {
   int32_t oversample;   /* pixels computed for each one, along both sides, 1 … 8; 0: 2, or 1 above 4096 pixels a side */
   uint32_t background;  /* red, green, blue, alpha from the high byte to the low one; 0: transparent */
   int32_t reserved;     /* 0 */
-  double azimuth;       /* space: where the eye is, radians from the x axis to the y axis, and above the xy plane; */
+  double azimuth;       /* space: where the eye is, radians from the x axis to the y axis, and above the xy plane; all three 0:
+                           .6, .45, .5 */
   double elevation;
   double field;         /* the angle of view, 0 … 3: so far away is the eye that the ball fills it; 0: infinitely far */
   ifsm_cancel cancel;   /* borrowed; {0} for none */
@@ -1630,7 +1631,7 @@ typedef struct ifsm_picture_report {
   double right;
   double top;
   int64_t points;    /* that the chaos game played; 0 where it did not */
-  int64_t inside;    /* those in the window: 0 tells that the window misses the attractor */
+  int64_t inside;    /* those in the window; when 0, ask ifsm_system_box whether it misses the attractor */
   int64_t met;       /* pixels that were hit, or are met for certain; where it was oversampled, of those computed */
   int64_t undecided; /* of a set: pixels to whose edge it comes within the tolerance, and none was found inside */
 } ifsm_picture_report;
@@ -1678,7 +1679,7 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_distances(ifsm_system system, con
  * rgba      [out] width × height × 4 bytes: red, green, blue (sRGB), alpha, which is not multiplied in
  *
  * Of space, the nearest point of each pixel, darker where it lies behind its surroundings: points of surfaces should be
- * many. Memory: 5 bytes a computed pixel for densities, 36 for symbols and addresses, 12 in space, times the cores but
+ * many. Memory: 5 bytes a computed pixel for densities, 36 for symbols and addresses, 8 in space, times the cores but
  * for densities. Errors: as ifsm_system_set; SHAPE also: sets and distances of space. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_render(ifsm_system system, const ifsm_picture_options *options,
                                                       ifsm_picture_report *report, uint8_t *rgba, int64_t capacity,

@@ -1,4 +1,5 @@
 // ifsm render: pictures and points of a system.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -27,8 +28,8 @@ struct RenderArguments {
   std::string colour = "tone", palette = "dusk", background = "none";
   double azimuth = 35, elevation = 25, field = 30;  // degrees
   std::optional<std::int64_t> points;
-  bool coarse = false;
   ifsm::PictureOptions options;
+  std::vector<const CLI::Option*> of_pictures;
   Talk talk;
 };
 
@@ -97,6 +98,10 @@ ifsm::PictureOptions options_of(const RenderArguments& arguments) {
                                      "; give four: left,bottom,right,top.");
     options.left = arguments.window[0], options.bottom = arguments.window[1];
     options.right = arguments.window[2], options.top = arguments.window[3];
+    if (!(options.right > options.left && options.top > options.bottom))
+      throw Failure(Exit::Usage, "--window: left,bottom,right,top is " + shortest(options.left) + "," +
+                                     shortest(options.bottom) + "," + shortest(options.right) + "," +
+                                     shortest(options.top) + "; give numbers with left < right and bottom < top.");
   }
   options.colour = number_of<ifsm::Colour>(colours, arguments.colour);
   options.palette = number_of<ifsm::Palette>(palettes, arguments.palette);
@@ -104,6 +109,8 @@ ifsm::PictureOptions options_of(const RenderArguments& arguments) {
   options.azimuth = arguments.azimuth * degree;
   options.elevation = arguments.elevation * degree;
   options.field = arguments.field * degree;
+  // All three zero mean the library's own view.
+  if (options.azimuth == 0 && options.elevation == 0 && options.field == 0) options.azimuth = 360 * degree;
   if (arguments.points) options.points = *arguments.points;
   return options;
 }
@@ -115,6 +122,9 @@ struct Result {
 
 // What the system itself is to blame for: no attractor; or, of space, what only the plane has.
 void refuse_system(const ifsm::Error& error, const RenderArguments& arguments) {
+  if (error.argument == "window" || error.argument == "right" || error.argument == "top" || error.argument == "left" ||
+      error.argument == "bottom")
+    throw Failure(Exit::Usage, std::string("--window: ") + error.what());
   if (error.argument != "system") return;
   if (error.status == IFSM_ERROR_SHAPE)
     throw Failure(Exit::Usage, "--colour " + arguments.colour + ": " + error.what());
@@ -122,11 +132,19 @@ void refuse_system(const ifsm::Error& error, const RenderArguments& arguments) {
     throw Failure(Exit::Input, arguments.system + ": " + error.what());
 }
 
+// Proven: the attractor's box lies beside the window.
+bool misses(const ifsm::System& system, const ifsm_picture_report& window) {
+  if (system.describe().dimension != 2) return false;
+  const auto box = system.box();
+  return box[0] > window.right || box[2] < window.left || box[1] > window.top || box[3] < window.bottom;
+}
+
 Result picture(const ifsm::System& system, const ifsm::PictureOptions& options) {
   const auto drawn = system.render(options);
   const auto& told = drawn.report;
   return {png_of(drawn.values, told.width, told.height),
-          {{"width", told.width},
+          {{"misses", told.points != 0 && told.inside == 0 && misses(system, told)},
+           {"width", told.width},
            {"height", told.height},
            {"window", {told.left, told.bottom, told.right, told.top}},
            {"points", told.points},
@@ -156,18 +174,43 @@ std::string in_words(const Json& report) {
   const std::string output = report["output"].get<std::string>() + ": ";
   const std::string size = "; " + report["bytes"].dump() + " bytes of " + report["format"].get<std::string>() + "\n";
   if (!report.contains("window")) return output + report["points"].dump() + " points" + size;
-  const auto side = [&](int k) { return rounded(report["window"][static_cast<std::size_t>(k)].get<double>()); };
+  const auto end = [&](std::size_t k) { return report["window"][k].get<double>(); };
+  // So many digits that the ends differ.
+  const auto side = [&](std::size_t k) {
+    const double width = end(k % 2 + 2) - end(k % 2), far = std::max(std::abs(end(k % 2)), std::abs(end(k % 2 + 2)));
+    return rounded(end(k), std::clamp(4 + static_cast<int>(std::log10(far / width)), 4, 17));
+  };
   std::string words = output + report["width"].dump() + " x " + report["height"].dump() + " pixels, x from " + side(0) +
                       " to " + side(2) + ", y from " + side(1) + " to " + side(3);
   if (report["points"] != 0)
     words += "; " + report["inside"].dump() + " of " + report["points"].dump() + " points inside";
-  if (report["points"] != 0 && report["inside"] == 0) words += ": the window misses the attractor";
+  if (report["misses"] == true) words += ": the window misses the attractor";
   return words + size;
+}
+
+// Options that say how a picture looks, beside an output that has none.
+void refuse_idle_options(const RenderArguments& arguments, const std::string& format) {
+  for (const CLI::Option* option : arguments.of_pictures)
+    if (option->count() > 0 && format != "png")
+      throw Failure(Exit::Usage,
+                    option->get_name() + " is of pictures, and " + arguments.output + " holds points; leave it out.");
+  const auto idle = [&](const char* name, bool counts, const std::string& with) {
+    for (const CLI::Option* option : arguments.of_pictures)
+      if (option->check_name(name) && option->count() > 0 && !counts)
+        throw Failure(Exit::Usage, std::string(name) + " goes with --colour " + with + "; leave it out.");
+  };
+  const std::string& colour = arguments.colour;
+  idle("--symbols", colour == "address", "address");
+  idle("--tolerance", colour == "set" || colour == "distance", "set or distance");
+  if (arguments.points && (colour == "set" || colour == "distance"))
+    throw Failure(Exit::Usage,
+                  "--points does not go with --colour " + colour + ", which draws nothing at random; leave it out.");
 }
 
 void run(const RenderArguments& arguments, Session& session) {
   refuse_json_beside_result(arguments.talk, arguments.output);
   const std::string format = format_of(arguments);
+  refuse_idle_options(arguments, format);
   auto options = options_of(arguments);
   check_writable(arguments.output);
   if (!names_system(arguments.system)) check_not_read(arguments.output, {arguments.system});
@@ -241,6 +284,9 @@ void add_render(CLI::App& program, Session& session) {
       ->capture_default_str();
   command->add_option("--format", a.format, "png, ply or csv (default: as the name ends)")
       ->check(one_of({"png", "ply", "csv"}));
+  for (const char* name : {"--size", "--width", "--height", "--window", "--colour", "--palette", "--symbols",
+                           "--background", "--oversample", "--tolerance", "--azimuth", "--elevation", "--field"})
+    a.of_pictures.push_back(command->get_option(name));
   add_talk(*command, a.talk);
   command->footer(
       "Examples:\n"

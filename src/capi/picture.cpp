@@ -73,6 +73,7 @@ namespace {
 enum class Shows : int32_t { tone = 0, symbol = 1, address = 2, set = 3, distance = 4 };
 
 constexpr int32_t most_pixels = 32768, usual_pixels = 1024;
+constexpr Direction usual_direction{.azimuth = .6, .elevation = .45, .field = .5};
 
 void require_window_fields(const ifsm_picture_options& read) {
   require_finite(read.left, "left");
@@ -144,7 +145,10 @@ class Request {
   Shows shows() const { return shows_; }
   const Palette& colours() const { return *palette_; }
   bool has_own_window() const { return has_window(read_); }
-  Direction direction() const { return {read_.azimuth, read_.elevation, read_.field}; }
+  Direction direction() const {
+    const bool told = read_.azimuth != 0 || read_.elevation != 0 || read_.field != 0;
+    return told ? Direction{read_.azimuth, read_.elevation, read_.field} : usual_direction;
+  }
   Watch watch() const { return Watch(token_.get(), progress_of(read_)); }
   int64_t points(int64_t otherwise) const { return read_.points == 0 ? otherwise : read_.points; }
   double tolerance(double otherwise) const { return read_.tolerance == 0 ? otherwise : read_.tolerance; }

@@ -55,8 +55,11 @@ Affine affine_of(const Frame& w, Index dimension) {
 std::vector<Affine> active_maps(const System& system) {
   std::vector<Affine> maps;
   for (const int i : system.active()) maps.push_back(system.maps()[static_cast<std::size_t>(i)]);
-  in_range(static_cast<std::int64_t>(maps.size()), 2, 8, "system");
-  return maps;
+  constexpr std::size_t fewest = 2, most = 8;
+  if (maps.size() >= fewest && maps.size() <= most) return maps;
+  throw Error(Status::range, "system",
+              "The system has " + std::to_string(maps.size()) + " active maps; a model's filter has 2 to 8.")
+      .with(static_cast<double>(maps.size()));
 }
 
 Points corners(const System& system) {

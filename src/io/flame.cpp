@@ -323,7 +323,13 @@ std::vector<FlameSystem> read_flame(std::string_view text) {
       const pugi::xml_attribute name = node.attribute("name");
       const std::string called = name ? name.value() : std::to_string(all.size() + 1);
       place.name = "the flame " + quoted(called);
-      all.push_back({called, system_of(place)});
+      FlameSystem& flame = all.emplace_back();
+      flame.name = called;
+      try {
+        flame.system = system_of(place);
+      } catch (const Error& error) {
+        flame.refused = error;
+      }
     }
     node = following(node, !is_flame);
   }

@@ -45,13 +45,14 @@ std::vector<NamedFileSystem> read_systems(std::span<const std::uint8_t> bytes) {
   const std::string_view text = without_mark({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   std::vector<NamedFileSystem> systems;
   switch (kind_of(text)) {
-    case Kind::document: systems.push_back({"", read_system(bytes)}); break;
+    case Kind::document: systems.push_back({"", read_system(bytes), {}}); break;
     case Kind::flame:
-      for (FlameSystem& each : read_flame(text)) systems.push_back({std::move(each.name), std::move(each.system)});
+      for (FlameSystem& each : read_flame(text))
+        systems.push_back({std::move(each.name), std::move(each.system), std::move(each.refused)});
       break;
     case Kind::fractint:
       for (FractintSystem& each : read_fractint(text))
-        systems.push_back({std::move(each.name), std::move(each.system)});
+        systems.push_back({std::move(each.name), std::move(each.system), {}});
       break;
   }
   return systems;
@@ -59,15 +60,17 @@ std::vector<NamedFileSystem> read_systems(std::span<const std::uint8_t> bytes) {
 
 SystemPtr read_system_named(std::span<const std::uint8_t> bytes, std::optional<std::string_view> name) {
   const std::vector<NamedFileSystem> systems = read_systems(bytes);
-  if (!name) {
-    if (systems.size() == 1) return systems.front().system;
-    throw Error(Status::range, "name",
-                "The file holds " + std::to_string(systems.size()) + " systems; name one of " + list_of(systems) + ".");
-  }
-  const auto found = std::find_if(systems.begin(), systems.end(), [&](const auto& each) { return each.name == *name; });
-  if (found != systems.end()) return found->system;
-  throw Error(Status::range, "name",
-              "The file holds no system " + quoted(*name) + "; there is " + list_of(systems) + ".");
+  const auto refuse = [&](const std::string& what, const std::string& way_out) {
+    throw Error(Status::range, "name", "The file holds " + what + "; " + way_out + " " + list_of(systems) + ".");
+  };
+  if (!name && systems.size() > 1) refuse(std::to_string(systems.size()) + " systems", "name one of");
+  const auto is_meant = [&](const auto& each) { return !name || each.name == *name; };
+  const auto found = std::find_if(systems.begin(), systems.end(), is_meant);
+  if (found == systems.end()) refuse("no system " + quoted(*name), "there is");
+  if (std::find_if(found + 1, systems.end(), is_meant) != systems.end())
+    refuse("several systems " + quoted(*name), "give each a name of its own:");
+  if (found->refused) throw Error(*found->refused);
+  return found->system;
 }
 
 }  // namespace ifsm::core

@@ -38,6 +38,20 @@ void require_window(const Window& window) {
   require_side(window.bottom, window.top, window.height, "window");
 }
 
+void require_tolerance(double tolerance, double rounding) {
+  if (!(rounding < 1))
+    throw Error(
+        Status::range, "window",
+        "Rounding moves points of this window by more than a pixel; give larger or fewer pixels, or a window and a "
+        "system that are not so far from the origin for their size.")
+        .with(rounding);
+  if (tolerance > rounding && tolerance <= 1) return;
+  throw Error(Status::range, "tolerance",
+              "tolerance is " + text_of(tolerance) + " of a pixel; give one above " + text_of(rounding) +
+                  ", what rounding does to points of this window, up to 1.")
+      .with(tolerance);
+}
+
 void require_plane(const System& system) {
   if (system.dimension() == 2) return;
   throw Error(Status::shape, "system",

@@ -46,6 +46,10 @@ void require_window(const Window& window);
 // Refuses systems of space: a shape error.
 void require_plane(const System& system);
 
+// Of a tolerance in pixels: above what rounding does to points of the window, up to 1. A range error, argument
+// "tolerance"; or "window", when rounding does more than a pixel.
+void require_tolerance(double tolerance, double rounding);
+
 struct Counts {
   std::vector<std::uint32_t> pixels;  // row by row; they saturate
   std::int64_t inside = 0;            // points in the window

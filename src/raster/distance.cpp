@@ -46,12 +46,13 @@ double between(const Spot& a, const Spot& b) { return length(a.x - b.x, a.y - b.
 // Pixels by blocks, each with the pieces that may hold the nearest point of one of its pixels.
 class Field {
  public:
-  Field(const System& system, const Box& box, const Window& window, double unit, double tolerance)
+  Field(const System& system, const Box& box, const Window& window, double unit, double tolerance, const Watch& watch)
       : window_(window),
         unit_(unit),
         per_column_((window.right - window.left) / static_cast<double>(window.width) / unit),
         per_row_((window.top - window.bottom) / static_cast<double>(window.height) / unit),
-        tolerance_(tolerance) {
+        tolerance_(tolerance),
+        watch_(watch) {
     for (const int i : system.active()) maps_.push_back(in_units(system.maps()[static_cast<std::size_t>(i)]));
     const Vector3 centre = place_of((box.low + box.high) / 2), half = (box.high - box.low) / (2 * unit);
     centre_ = {centre(0), centre(1)};
@@ -66,6 +67,12 @@ class Field {
   }
 
  private:
+  // Overlapping pieces may take long.
+  void poll_now_and_then() const {
+    constexpr std::int64_t between = 1 << 12;
+    if (++looked_ % between == 0) watch_.poll();
+  }
+
   Frame frame_of(const Piece& piece) const {
     return {piece,
             {piece.x(centre_.x, centre_.y), piece.y(centre_.x, centre_.y)},
@@ -118,6 +125,7 @@ class Field {
       for (const Frame& frame : frames) most = std::min(most, between(frame.point, middle));
       std::erase_if(frames, [&](const Frame& frame) { return least(frame, middle) > most + 2 * radius; });
       split = false;
+      poll_now_and_then();
       if (frames.size() > many) return;
       std::vector<Frame> finer;
       for (const Frame& frame : frames) {
@@ -157,6 +165,7 @@ class Field {
     std::sort(orders_[depth].begin(), orders_[depth].end(),
               [](const Near& a, const Near& b) { return a.known < b.known; });
     for (std::size_t k = 0; k < orders_[depth].size(); ++k) {
+      poll_now_and_then();
       if (best <= tolerance_) return;
       const Frame frame = orders_[depth][k].frame;
       if (least(frame, from) >= best - tolerance_) continue;
@@ -172,6 +181,8 @@ class Field {
 
   Window window_;
   double unit_, per_column_, per_row_, tolerance_;
+  const Watch& watch_;
+  mutable std::int64_t looked_ = 0;
   std::vector<Piece> maps_;
   Spot centre_{}, half_{}, point_{};
   std::vector<std::vector<Near>> orders_;  // by depth: kept, so that nothing is allocated
@@ -191,11 +202,7 @@ std::vector<double> distances(const System& system, const Window& window, double
       std::max({std::abs(window.left), std::abs(window.right), std::abs(window.bottom), std::abs(window.top)});
   const double least =
       rounding * (system.enclosure().axes.norm() + system.enclosure().centre.cwiseAbs().maxCoeff() + far) / pixel;
-  if (!(tolerance > least && tolerance <= 1))
-    throw Error(Status::range, "tolerance",
-                "tolerance is " + text_of(tolerance) + " of a pixel; give one above " + text_of(least) +
-                    ", what rounding leaves of it, up to 1.")
-        .with(tolerance);
+  require_tolerance(tolerance, least);
   std::vector<double> found(static_cast<std::size_t>(window.pixels()));
   const Box box = bounding_box(system, 0x1p-20 * system.enclosure().axes.norm());
   constexpr std::int64_t side = 64;
@@ -204,7 +211,7 @@ std::vector<double> distances(const System& system, const Window& window, double
   for (std::int64_t row = 0; row < down; ++row) {
     parallel_for(across, 0, [&](std::int64_t column) {
       watch.poll();
-      Field(system, box, window, pixel, tolerance).fill(row * side, column * side, side, found);
+      Field(system, box, window, pixel, tolerance, watch).fill(row * side, column * side, side, found);
     });
     watch.report(static_cast<double>(row + 1) / static_cast<double>(down), "rows");
   }

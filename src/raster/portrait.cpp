@@ -29,7 +29,7 @@ Light whole(Rgb colour) {
 // So each shade of a palette is seen as often as any other.
 class Colours {
  public:
-  static constexpr std::size_t most_letters = 16;
+  static constexpr std::size_t most_letters = 16, shades = 1024;
   // Of the last so many letters; or of all, in the first place.
   using Shares = std::array<double, most_letters>;
 
@@ -68,8 +68,6 @@ class Colours {
   }
 
  private:
-  static constexpr std::size_t shades = 1024;
-
   Rgb colour_of_letter(std::size_t i) const {
     if (look_.letter_colours.empty()) return letter_colour(static_cast<int>(i));
     return look_.letter_colours[i % look_.letter_colours.size()];
@@ -170,6 +168,7 @@ class LightSums {
 };
 
 // The nearest point of each pixel: farness above its colour's number, so that the smallest is kept, whatever the order.
+// In 32 bits, since the pixels of a picture should stay near: 22 of farness, 10 of the number.
 class Nearest {
  public:
   Nearest(const Window& window, const View& view)
@@ -181,8 +180,8 @@ class Nearest {
     const std::int64_t pixel = grid_.pixel(seen.x, seen.y);
     inside_ += pixel < static_cast<std::int64_t>(seen_.size()) - 1 ? 1 : 0;
     const double farness = std::clamp(1 - seen.nearness, 0.0, 1.0) * farthest;
-    const std::uint64_t key = static_cast<std::uint64_t>(static_cast<std::int64_t>(farness)) << 32 | number;
-    std::uint64_t& kept = seen_[static_cast<std::size_t>(pixel)];
+    const std::uint32_t key = static_cast<std::uint32_t>(static_cast<std::int32_t>(farness)) << number_bits | number;
+    std::uint32_t& kept = seen_[static_cast<std::size_t>(pixel)];
     kept = std::min(kept, key);
   }
 
@@ -199,8 +198,8 @@ class Nearest {
     for (std::size_t p = 0; p < nearness.size(); ++p) {
       if (seen_[p] == nothing) continue;
       ++made.met;
-      nearness[p] = static_cast<float>(1 - static_cast<double>(seen_[p] >> 32) / farthest);
-      const auto number = static_cast<std::uint32_t>(seen_[p]);
+      nearness[p] = static_cast<float>(1 - static_cast<double>(seen_[p] >> number_bits) / farthest);
+      const std::uint32_t number = seen_[p] % (1U << number_bits);
       made.pixels[p] = {look.colouring == Colouring::tone ? look.palette->at(1 - nearness[p]) : colours.colour(number),
                         255};
     }
@@ -209,13 +208,15 @@ class Nearest {
   }
 
  private:
-  static constexpr std::uint64_t nothing = std::numeric_limits<std::uint64_t>::max();
-  static constexpr double farthest = 0x1p32 - 2;
+  static constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
+  static constexpr int number_bits = 10;
+  static_assert(Colours::shades <= 1 << number_bits && System::most_maps <= 1 << number_bits);
+  static constexpr double farthest = 0x1p22 - 2;
 
   Grid grid_;
   View view_;
   std::int64_t inside_ = 0;
-  std::vector<std::uint64_t> seen_;  // one more for what lies outside
+  std::vector<std::uint32_t> seen_;  // one more for what lies outside
 };
 
 void require_points(std::int64_t points) { in_range(points, 1, std::int64_t{1} << 50, "points"); }

@@ -2,30 +2,17 @@
 
 #include <algorithm>
 
-#include "base/error.h"
 #include "base/parallel.h"
 #include "raster/in_pixels.h"
 #include "raster/set_pieces.h"
 #include "raster/set_points.h"
 
 namespace ifsm::core {
-namespace {
-
-void require_tolerance(double tolerance, double rounding) {
-  if (tolerance > 4 * rounding && tolerance <= 1) return;
-  throw Error(Status::range, "tolerance",
-              "tolerance is " + text_of(tolerance) + " pixels; give one above " + text_of(4 * rounding) +
-                  ", four times what rounding does to points of this window, and at most 1.")
-      .with(tolerance);
-}
-
-}  // namespace
-
 std::vector<Meets> set_pixels(const System& system, const Window& window, double tolerance, Watch& watch) {
   require_plane(system);
   require_window(window);
   const InPixels attractor(system, window);
-  require_tolerance(tolerance, attractor.rounding);
+  require_tolerance(tolerance, 4 * attractor.rounding);
   constexpr std::size_t read_beyond = 3;
   std::vector<Meets> states(static_cast<std::size_t>(window.pixels()) + read_beyond, Meets::no);
   follow_points(attractor, window, states.data(), watch);

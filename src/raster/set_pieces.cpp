@@ -226,7 +226,8 @@ class Search {
     if (hn::AllTrue(reals, hn::Lt(most, set(double{InPixels::longest_word})))) return;
     throw Error(Status::limit, "tolerance",
                 "Pieces of words of " + std::to_string(InPixels::longest_word) +
-                    " maps are still larger than the tolerance; give a larger one.")
+                    " maps are still larger than the tolerance: the maps shrink too slowly for " +
+                    "proofs; give a larger tolerance, up to 1, larger pixels, or count points instead.")
         .with(tolerance_);
   }
 
@@ -332,8 +333,9 @@ class Search {
     const auto runs = hn::And(hn::ShiftRight<4>(hn::BitCast(counts, read)), hn::Set(counts, 0x0F0F0F0F));
     const auto needed = hn::BitCast(counts, hn::Mul(rows, set(0x01010101)));
     const auto missing = hn::AndNot(hn::Sub(hn::Or(runs, above), needed), above);
+    // Bytes beside a box of three columns or fewer; of more, all four count, and nothing is shifted by a whole word.
     const auto beside =
-        hn::Shl(hn::Set(counts, 0xFFFFFFFF), hn::BitCast(counts, hn::ShiftLeft<3>(hn::Min(columns, set(4)))));
+        hn::Shl(hn::Set(counts, 0xFFFFFFFF), hn::BitCast(counts, hn::ShiftLeft<3>(hn::Min(columns, set(3)))));
     const auto of_box =
         hn::IfThenElse(hn::RebindMask(counts, hn::Gt(columns, set(3))), missing, hn::AndNot(beside, missing));
     const auto longer = hn::RebindMask(integers, hn::Ne(of_box, hn::Zero(counts)));

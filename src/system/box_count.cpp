@@ -111,6 +111,19 @@ class Counter {
   Vector3 middle_, half_, point_;
 };
 
+// Tight, since grids and shapes often share their sides; less so where that takes too many pieces.
+Box tight_box(const System& system, double size) {
+  const auto within = [&](double share) {
+    return bounding_box(system, std::max(share * size, std::numeric_limits<double>::min()));
+  };
+  try {
+    return within(1e-12);
+  } catch (const Error& error) {
+    if (error.status() != Status::limit) throw;
+    return within(1e-6);
+  }
+}
+
 }  // namespace
 
 BoxCounts count_boxes(const System& system, int finest, Watch& watch) {
@@ -118,7 +131,7 @@ BoxCounts count_boxes(const System& system, int finest, Watch& watch) {
   constexpr double tolerance = 1e-12;
   in_range(finest, coarsest + 2, system.dimension() == 2 ? 13 : 9, "finest");
   const double size = system.enclosure().axes.norm();
-  const Box box = bounding_box(system, std::max(tolerance * size, std::numeric_limits<double>::min()));
+  const Box box = tight_box(system, size);
   const double side = (box.high - box.low).maxCoeff();
   if (!(side > 4 * tolerance * size) || side == 0)
     throw Error(Status::shape, "system",

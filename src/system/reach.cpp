@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/cancel.h"
 #include "base/error.h"
 
 namespace ifsm::core {
@@ -58,11 +59,11 @@ class Search {
   double reach(const Vector3& direction, double tolerance) const {
     std::vector<Piece> pieces{piece(direction, 0)}, children;
     double best = -std::numeric_limits<double>::infinity(), most = best, merged = 0, rounding = 0;
-    std::int64_t work = 0;
     while (!pieces.empty()) {
       children.clear();
       double largest = 0;
       for (const Piece& each : pieces) {
+        polled_.step();
         largest = std::max(largest, std::abs(each.offset) + each.v.norm() * size_);
         for (const Affine& map : maps_) {
           const Piece child = piece(map.linear.transpose() * each.v, each.offset + each.v.dot(map.shift));
@@ -74,9 +75,9 @@ class Search {
         }
       }
       rounding += 16 * epsilon * largest;  // of the sums of products that make a child, each of fewer than 16 terms
-      constexpr std::int64_t most_work = 1 << 22;
-      work += static_cast<std::int64_t>(children.size());
-      if (work > most_work) refuse(tolerance);
+      constexpr std::int64_t most_work = 1 << 26;  // some seconds, of all directions together
+      work_ += static_cast<std::int64_t>(children.size());
+      if (work_ > most_work) refuse(tolerance);
       constexpr std::size_t few = 16;
       if (children.size() > few) {
         const double allowed = (tolerance / 2 - merged) / 16;
@@ -112,6 +113,8 @@ class Search {
   double size_;
   std::vector<Affine> maps_;
   Vector3 inside_;  // a point of the attractor
+  mutable Polled polled_;
+  mutable std::int64_t work_ = 0;  // pieces so far
 };
 
 struct Peak {

@@ -359,6 +359,11 @@ TEST_F(Pictures, OfSpaceLookAtTheMiddleOfItsBall) {
   const ifsm_system system = named("tetrahedron");  // about the origin, its corners at sqrt(3)
   ifsm_picture_options options = defaults();
   options.width = 40, options.oversample = 1, options.points = 20'000;
+  const Bytes usual = render(system, options);  // in perspective: the ball fills the field of .5
+  EXPECT_NEAR(report.right, 1.04 * std::sqrt(3.) / std::cos(.25), 1e-3);
+  options.azimuth = .6, options.elevation = .45, options.field = .5;
+  EXPECT_EQ(render(system, options), usual);
+  options.azimuth = 2 * std::acos(-1.0), options.elevation = options.field = 0;  // along the x axis
   const Bytes flat = render(system, options);
   EXPECT_NEAR(report.right, 1.04 * std::sqrt(3.), 1e-3);
   EXPECT_NEAR(report.left, -report.right, 1e-12);

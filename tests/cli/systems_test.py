@@ -136,19 +136,37 @@ class Systems(Program):
         self.refused(3, "--name one of \"gasket\", \"line\"", "render", path, "-o", self.file("x.png"))
         self.refused(2, "holds no system \"dragon\"", "info", path, "--name", "dragon")
         self.fine("info", self.file("half.flame", FLAME))
+        both = self.file("both.flame", "<flames>" + FLAME + BENT + "</flames>")
+        self.assertEqual(json.loads(self.fine("info", both, "--json"))["systems"], ["half", "bent"])
+        self.fine("info", both, "--name", "half")
         self.refused(3, "spherical", "info", self.file("bent.flame", BENT))
 
     def test_what_cannot_be_is_refused(self):
         out = self.file("x.png")
         self.refused(2, "There is no system \"frn\"", "render", "frn", "-o", out)
         self.refused(2, "--window has 2 numbers", "render", "fern", "--window", "1,2", "-o", out)
-        self.refused(2, "not above the other side", "render", "fern", "--window", "1,0,0,1", "-o", out)
+        self.refused(2, "with left < right", "render", "fern", "--window", "1,0,0,1", "-o", out)
         self.refused(2, "'mauve' is no colour", "render", "fern", "--background", "mauve", "-o", out)
         self.refused(2, "ends in none of", "render", "fern", "-o", self.file("x.gif"))
         self.refused(2, "--colour set: The system lies in space", "render", "sponge", "--colour", "set", "-o", out)
         self.refused(3, "cannot be opened", "render", "./missing.ifs", "-o", out)
         self.refused(2, "--name goes with a file", "info", "fern", "--name", "x")
         self.assertFalse(out.exists())
+
+    def test_options_that_do_not_count_are_refused(self):
+        png, csv = self.file("x.png"), self.file("x.csv")
+        self.refused(2, "--window is of pictures", "render", "fern", "--window", "0,0,1,1", "-o", csv)
+        self.refused(2, "--symbols goes with --colour address", "render", "fern", "--symbols", 2, "-o", png)
+        self.refused(2, "--tolerance goes with", "render", "fern", "--tolerance", .5, "-o", png)
+        self.refused(2, "--points does not go", "render", "fern", "--points", 5, "--colour", "set", "-o", png)
+        self.refused(2, "with left < right", "render", "fern", "--window", "0,0,0,0", "-o", png)
+        self.refused(2, "has 20 active maps", "convert", "sponge", "-o", self.file("x.ifsm"))
+
+    def test_a_small_window_on_the_stem_is_not_said_to_miss(self):
+        words = self.fine("render", "fern", "--window=-0.000005,0.5,0.000005,0.50001", "--size", 8, "--points", 1000, "-o",
+                          self.file("x.png"))
+        self.assertNotIn("misses", words)
+        self.assertIn("y from 0.5 to 0.50001", words)
 
     def test_a_signal_ends_a_long_drawing_and_leaves_nothing(self):
         out = self.file("x.png")

@@ -25,6 +25,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   for (const FlameSystem& each : all) {
+    require((each.system == nullptr) == each.refused.has_value());
+    if (each.refused) {
+      require(each.refused->status() != Status::internal && each.refused->index() >= 1);
+      continue;
+    }
     require(each.system->dimension() == 2);
     const auto again = read_fractint(write_fractint(each.name, *each.system));
     require(again.size() == 1 && *again[0].system == *each.system);

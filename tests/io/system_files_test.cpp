@@ -42,6 +42,22 @@ TEST(SystemFiles, OfSeveralAreAskedByName) {
   }
 }
 
+TEST(SystemFiles, GiveAffineFlamesThoughOthersBesideThemAreNot) {
+  const std::string text =
+      "<flames>" + std::string(flame) +
+      R"(<flame name="bent"><xform weight="1" spherical="1" coefs=".5 0 0 .5 0 0"/></flame></flames>)";
+  EXPECT_EQ(read_systems(bytes_of(text)).size(), 2U);
+  EXPECT_EQ(read_system_named(bytes_of(text), "half")->maps().size(), 1U);
+  const Error error = refusal([&] { read_system_named(bytes_of(text), "bent"); });
+  EXPECT_EQ(error.status(), Status::format);
+  EXPECT_NE(std::string(error.what()).find("spherical"), std::string::npos);
+}
+
+TEST(SystemFiles, OfOneNameTwiceAreRefusedByThatName) {
+  const std::string text = write_fractint("a", *named_system("fern")) + write_fractint("a", *named_system("koch"));
+  EXPECT_EQ(refusal([&] { read_system_named(bytes_of(text), "a"); }).argument(), "name");
+}
+
 TEST(SystemFiles, ThatAreNoneAreRefused) {
   for (const std::string_view text : {"", "  \n", "\xef\xbb\xbf", "{}", "<a/>", "hello", "\x01\x02", "\xa0"}) {
     const Error error = refusal([&] { read_systems(bytes_of(text)); });

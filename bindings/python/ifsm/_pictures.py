@@ -151,7 +151,8 @@ class Pictured(Handled):
         azimuth, elevation : float
             Of space: where the eye is, in radians: from the x axis to the y axis, and above the xy plane.
         field : float
-            Of space: the angle of view in radians, 0 … 3; 0: the eye is infinitely far.
+            Of space: the angle of view in radians, 0 … 3; 0: the eye is infinitely far. All three 0: .6, .45, .5, from
+            aside and above.
 
         Returns
         -------

@@ -320,14 +320,22 @@ class System(Pictured):
     def from_bytes(cls, data, *, name=None):
         """A system from a file's bytes: CBOR, JSON, Fractint's text, or flam3's XML where that is affine.
 
-        `name` says which of a file of several; `file_names` lists them.
+        `name` says which of a file of several; `file_names` lists them. A model's bytes give what `from_model` makes of it.
         """
+        if name is None and b"ifsm-model" in bytes(as_bytes(data, "ifsm.System.from_bytes", "data")):
+            return cls.from_model(Model.from_bytes(data))
         with naming(bytes="data"):
             return cls._of(_native.ifsm_system_load(as_bytes(data, "ifsm.System.from_bytes", "data"), name))
 
     def save(self, path, *, format=None):
-        """Write it to a file: JSON when its name ends in ``.json``, Fractint's text for ``.ifs``, else CBOR."""
+        """Write it to a file: JSON when its name ends in ``.json``, Fractint's text for ``.ifs``, else CBOR.
+
+        Flames are read alone, and ``.ifsm`` is a model's ending: both are refused, unless `format` says what to write.
+        """
         file = pathlib.Path(os.fsdecode(path))
+        if format is None and file.suffix in (".flame", ".ifsm"):
+            raise invalid_value("ifsm.System.save", "path", f"path ends in {file.suffix}, which no system is written as; end it "
+                                "in .json, .cbor or .ifs, or save the model that System.model makes.")
         data = self.to_bytes(_SUFFIXES.get(file.suffix, "cbor") if format is None else format, name=file.stem)
         file.write_bytes(data)
 

@@ -315,3 +315,16 @@ def test_errors_name_what_python_has(gasket, refused):
     refused(lambda: gasket.moments(1, about=[1]), ifsm.InvalidValue, "about")
     refused(lambda: gasket.box_dimension(3), ifsm.InvalidValue, "finest")
     refused(lambda: gasket.to_bytes("xml"), ifsm.InvalidValue, "format")
+
+
+def test_endings_that_no_system_has_are_refused(tmp_path):
+    for name in ("x.flame", "x.ifsm"):
+        with pytest.raises(ValueError, match="which no system is written as"):
+            ifsm.systems.fern().save(tmp_path / name)
+        assert not (tmp_path / name).exists()
+
+
+def test_a_models_bytes_are_its_system():
+    koch = ifsm.systems.koch()
+    again = ifsm.System.from_bytes(koch.model(levels=2).to_bytes())
+    assert np.allclose(again.maps, koch.maps, atol=1e-14)
