@@ -234,4 +234,17 @@ TEST(Distances, RefuseTolerancesByName) {
   EXPECT_EQ(refusal([&] { far(*fern, {0, 0, 1, -1, 2, 2}); }).argument(), "window");
 }
 
+TEST(Distances, AreCancelledWithinABlock) {
+  const double c = .9999 * std::cos(.1), s = .9999 * std::sin(.1);
+  Affine turning, half;
+  turning.linear.topLeftCorner<2, 2>() << c, -s, s, c;
+  turning.shift(0) = 1;
+  half.linear.topLeftCorner<2, 2>() << .5, 0, 0, .5;
+  const System slow(2, {turning, half});
+  const double size = slow.enclosure().axes.norm();
+  int asked = 0;
+  Watch watch(nullptr, [&](double, const char*) { return ++asked > 1; });
+  EXPECT_THROW(distances(slow, {-size, -size, size, size, 512, 512}, 1. / 8, watch), Cancelled);
+}
+
 }  // namespace

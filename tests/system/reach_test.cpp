@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "base/cancel.h"
 #include "base/error.h"
 #include "support.h"
 #include "system/named.h"
@@ -168,6 +169,17 @@ TEST(BoundingBox, OfTheOriginAloneTakesATolerance) {
     EXPECT_NEAR(farthest(origin, Vector3::UnitX(), 1e-6), 1, 1e-6);
     EXPECT_EQ(refusal([&] { bounding_box(origin, -1); }).argument(), "tolerance");
   }
+}
+
+// Shrinks by a ten-thousandth a step: its ball takes minutes, if nobody asks to stop.
+TEST(Reach, StopsWhenTheThreadIsInterrupted) {
+  const double c = .9999 * std::cos(.1), s = .9999 * std::sin(.1);
+  const System slow(2, {similar(c, s, 1, 0), similar(.5, 0, 0, 0)});
+  const double tolerance = 1e-9 * slow.enclosure().axes.norm();
+  set_interrupt([](void*) { return std::int32_t{1}; }, nullptr);
+  EXPECT_THROW(enclosing_ball(slow, tolerance), Cancelled);
+  EXPECT_THROW(diameter(slow, tolerance), Cancelled);
+  set_interrupt(nullptr, nullptr);
 }
 
 }  // namespace
