@@ -161,14 +161,15 @@ SystemPtr system_of(const Model& model) {
   return std::make_shared<System>(static_cast<int>(d), std::move(maps), std::vector<double>(count, 1.0));
 }
 
-ModelPtr model_of(const System& system, Topology topology, const Points& given, int levels) {
+ModelPtr model_of(const System& system, Topology topology, const Points& polygon, int levels) {
   static_cast<void>(system.enclosure());  // contractive, or an error that says why not
   const Index d = system.dimension();
   const std::vector<Affine> maps = active_maps(system);
   const bool joined = topology == Topology::joined;
-  const Points polygon = given.count() > 0 ? given : joined ? chain(system, maps) : corners(system);
-  require_points(polygon, d);
-  const Frame b = frame_of(polygon), inverse = inverse_of_frame(polygon, given.count() > 0 ? "polygon" : "system");
+  const bool given = polygon.count() > 0;
+  const Points places = given ? polygon : joined ? chain(system, maps) : corners(system);
+  require_points(places, d);
+  const Frame b = frame_of(places), inverse = inverse_of_frame(places, given ? "polygon" : "system");
   std::vector<Frame> t;
   for (const Affine& map : maps) t.push_back(inverse * embedded(map, d) * b);
   // What rounding of coordinates and of B^-1 may do to a column.
@@ -177,7 +178,7 @@ ModelPtr model_of(const System& system, Topology topology, const Points& given, 
   make_barycentric(columns);
   const Shape shape(topology, static_cast<int>(d + 1), static_cast<int>(maps.size()));
   const auto filter = std::make_shared<Filter>(shape, with_complement(shape, columns));
-  return from_polygon(filter, polygon, false, levels);
+  return from_polygon(filter, places, false, levels);
 }
 
 }  // namespace ifsm::core

@@ -84,7 +84,7 @@ Palette::Palette(std::span<const Rgb> stops) {
 
 Rgb Palette::at(double t) const {
   const double place = std::clamp(t, 0.0, 1.0) * (shades - 1);
-  return table_[static_cast<std::size_t>(place + 0.5)];
+  return table_[static_cast<std::size_t>(std::lround(place))];
 }
 
 const Palette& palette(PaletteName name) {

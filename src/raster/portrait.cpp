@@ -58,7 +58,7 @@ class Colours {
   std::uint32_t number(const Shares& shares, int letter) const {
     if (look_.colouring == Colouring::letter) return static_cast<std::uint32_t>(letter);
     const double share = shares[look_.letters == 0 ? 0 : static_cast<std::size_t>(look_.letters) - 1];
-    return static_cast<std::uint32_t>(std::min(share, 1.0) * (shades - 1) + .5);
+    return static_cast<std::uint32_t>(std::lround(std::min(share, 1.0) * (shades - 1)));
   }
 
   const Light& light(std::uint32_t number) const { return table_[number]; }
