@@ -1,5 +1,7 @@
 #include "raster/portrait.h"
 
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,8 +80,34 @@ class Colours {
   std::vector<Light> table_;
 };
 
+// Bytes between what different threads write to, so that no line of a cache is both's.
+constexpr std::size_t apart = 128;
+
+// What was seen waits until what its pixel holds has come from memory, far away as pixels are: asked for when it is
+// seen, taken when all have been asked for.
+template <class Seen>
+class Waiting {
+ public:
+  // Whether it is time to take all.
+  bool add(const void* wanted, const Seen& seen) {
+    hwy::Prefetch(static_cast<const std::uint8_t*>(wanted));
+    all_[count_++] = seen;
+    return count_ == all_.size();
+  }
+
+  template <class Take>
+  void take(const Take& take) {
+    for (std::size_t k = 0; k < count_; ++k) take(all_[k]);
+    count_ = 0;
+  }
+
+ private:
+  std::array<Seen, orbit_count> all_;
+  std::size_t count_ = 0;
+};
+
 // Plays all chunks, each into one of some canvases, as many as there are threads; the first one holds all in the end.
-// Canvas: see(orbit's address and letter, x), add(other).
+// Canvas: see(number of a colour, x), settle() what waits, add(other).
 template <std::size_t d, class Canvas>
 Canvas paint(const System& system, const Colours& colours, const Canvas& empty, std::uint64_t seed, std::int64_t points,
              Watch& watch) {
@@ -105,22 +133,30 @@ Canvas paint(const System& system, const Colours& colours, const Canvas& empty, 
     });
     watch.report(static_cast<double>(std::min(done + groups, chunks)) / static_cast<double>(chunks), "points");
   }
+  for (Canvas& canvas : canvases) canvas.settle();
   for (std::size_t k = 1; k < canvases.size(); ++k) canvases[0].add(canvases[k]);
   watch.finish();
   return std::move(canvases[0]);
 }
 
 // The light of all points of a pixel, added up.
-class LightSums {
+class alignas(apart) LightSums {
  public:
   LightSums(const Window& window, const Colours& colours)
       : grid_(window), colours_(&colours), sums_(static_cast<std::size_t>(window.pixels()) + 1) {}
 
   void see(std::uint32_t number, const std::array<double, 2>& x) {
-    Sum& sum = sums_[static_cast<std::size_t>(grid_.pixel(x[0], x[1]))];
-    const Light& light = colours_->light(number);
-    ++sum.count;
-    for (std::size_t k = 0; k < 3; ++k) sum.light[k] += light[k];
+    const auto pixel = static_cast<std::size_t>(grid_.pixel(x[0], x[1]));
+    if (waiting_.add(&sums_[pixel], {pixel, number})) settle();
+  }
+
+  void settle() {
+    waiting_.take([&](const Seen& seen) {
+      Sum& sum = sums_[seen.pixel];
+      const Light& light = colours_->light(seen.number);
+      ++sum.count;
+      for (std::size_t k = 0; k < 3; ++k) sum.light[k] += light[k];
+    });
   }
 
   void add(const LightSums& other) {
@@ -161,15 +197,20 @@ class LightSums {
     std::uint64_t count = 0;
     std::array<std::uint64_t, 3> light{};
   };
+  struct Seen {
+    std::size_t pixel;
+    std::uint32_t number;
+  };
 
   Grid grid_;
   const Colours* colours_;
   std::vector<Sum> sums_;  // one more for what lies outside
+  Waiting<Seen> waiting_;
 };
 
 // The nearest point of each pixel: farness above its colour's number, so that the smallest is kept, whatever the order.
 // In 32 bits, since the pixels of a picture should stay near: 22 of farness, 10 of the number.
-class Nearest {
+class alignas(apart) Nearest {
  public:
   Nearest(const Window& window, const View& view)
       : grid_(window), view_(view), seen_(static_cast<std::size_t>(window.pixels()) + 1, nothing) {}
@@ -181,8 +222,12 @@ class Nearest {
     inside_ += pixel < static_cast<std::int64_t>(seen_.size()) - 1 ? 1 : 0;
     const double farness = std::clamp(1 - seen.nearness, 0.0, 1.0) * farthest;
     const std::uint32_t key = static_cast<std::uint32_t>(static_cast<std::int32_t>(farness)) << number_bits | number;
-    std::uint32_t& kept = seen_[static_cast<std::size_t>(pixel)];
-    kept = std::min(kept, key);
+    const auto place = static_cast<std::size_t>(pixel);
+    if (waiting_.add(&seen_[place], {place, key})) settle();
+  }
+
+  void settle() {
+    waiting_.take([&](const Seen& seen) { seen_[seen.pixel] = std::min(seen_[seen.pixel], seen.key); });
   }
 
   void add(const Nearest& other) {
@@ -208,6 +253,10 @@ class Nearest {
   }
 
  private:
+  struct Seen {
+    std::size_t pixel;
+    std::uint32_t key;
+  };
   static constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
   static constexpr int number_bits = 10;
   static_assert(Colours::shades <= 1 << number_bits && System::most_maps <= 1 << number_bits);
@@ -217,6 +266,7 @@ class Nearest {
   View view_;
   std::int64_t inside_ = 0;
   std::vector<std::uint32_t> seen_;  // one more for what lies outside
+  Waiting<Seen> waiting_;
 };
 
 void require_points(std::int64_t points) { in_range(points, 1, std::int64_t{1} << 50, "points"); }
