@@ -121,5 +121,9 @@ IFSM_WITH_OPTIONS(ifsm_tone_map)
 IFSM_WITH_OPTIONS(ifsm_system_sample)
 IFSM_WITH_OPTIONS(ifsm_system_sample_addresses)
 
+// What these are made of.
+%ignore ifsm_bindings::watched;
+%ignore ifsm_bindings::picture;
+
 %include "ifsm.h"
 %include "options.h"

@@ -194,24 +194,36 @@ inline ifsm_status ifsm_deformer_texture(ifsm_deformer deformer, int32_t first, 
 
 // Of pictures each function takes the fields that count for it; the others are zero.
 
+// What any number of points or pixels has: how many threads, and who asks to stop.
+inline ifsm_picture_options watched(int32_t threads, ifsm_cancel cancel, ifsm_progress_callback progress, void *user) {
+  auto options = defaults(ifsm_picture_options_init);
+  options.threads = threads;
+  options.cancel = cancel;
+  options.progress = progress;
+  options.user = user;
+  return options;
+}
+
+// And what a picture has besides.
+inline ifsm_picture_options picture(ifsm_picture_options options, int32_t width, int32_t height, double left,
+                                    double bottom, double right, double top) {
+  options.width = width;
+  options.height = height;
+  options.left = left;
+  options.bottom = bottom;
+  options.right = right;
+  options.top = top;
+  return options;
+}
+
 inline ifsm_status ifsm_system_histogram(ifsm_system system, int32_t width, int32_t height, int32_t threads,
                                          double left, double bottom, double right, double top, uint64_t seed,
                                          int64_t points, ifsm_cancel cancel, ifsm_progress_callback progress,
                                          void *user, ifsm_picture_report *report, uint32_t *counts, int64_t capacity,
                                          int64_t *count) {
-  auto options = defaults(ifsm_picture_options_init);
-  options.width = width;
-  options.height = height;
-  options.threads = threads;
-  options.left = left;
-  options.bottom = bottom;
-  options.right = right;
-  options.top = top;
+  auto options = picture(watched(threads, cancel, progress, user), width, height, left, bottom, right, top);
   options.seed = seed;
   options.points = points;
-  options.cancel = cancel;
-  options.progress = progress;
-  options.user = user;
   return ::ifsm_system_histogram(system, &options, report, counts, capacity, count);
 }
 
@@ -219,18 +231,8 @@ inline ifsm_status ifsm_system_set(ifsm_system system, int32_t width, int32_t he
                                    double bottom, double right, double top, double tolerance, ifsm_cancel cancel,
                                    ifsm_progress_callback progress, void *user, ifsm_picture_report *report,
                                    uint8_t *pixels, int64_t capacity, int64_t *count) {
-  auto options = defaults(ifsm_picture_options_init);
-  options.width = width;
-  options.height = height;
-  options.threads = threads;
-  options.left = left;
-  options.bottom = bottom;
-  options.right = right;
-  options.top = top;
+  auto options = picture(watched(threads, cancel, progress, user), width, height, left, bottom, right, top);
   options.tolerance = tolerance;
-  options.cancel = cancel;
-  options.progress = progress;
-  options.user = user;
   return ::ifsm_system_set(system, &options, report, pixels, capacity, count);
 }
 
@@ -239,18 +241,8 @@ inline ifsm_status ifsm_system_distances(ifsm_system system, int32_t width, int3
                                          ifsm_cancel cancel, ifsm_progress_callback progress, void *user,
                                          ifsm_picture_report *report, double *distances, int64_t capacity,
                                          int64_t *count) {
-  auto options = defaults(ifsm_picture_options_init);
-  options.width = width;
-  options.height = height;
-  options.threads = threads;
-  options.left = left;
-  options.bottom = bottom;
-  options.right = right;
-  options.top = top;
+  auto options = picture(watched(threads, cancel, progress, user), width, height, left, bottom, right, top);
   options.tolerance = tolerance;
-  options.cancel = cancel;
-  options.progress = progress;
-  options.user = user;
   return ::ifsm_system_distances(system, &options, report, distances, capacity, count);
 }
 
@@ -261,14 +253,7 @@ inline ifsm_status ifsm_system_render(ifsm_system system, int32_t width, int32_t
                                       double azimuth, double elevation, double field, ifsm_cancel cancel,
                                       ifsm_progress_callback progress, void *user, ifsm_picture_report *report,
                                       uint8_t *rgba, int64_t capacity, int64_t *count) {
-  auto options = defaults(ifsm_picture_options_init);
-  options.width = width;
-  options.height = height;
-  options.threads = threads;
-  options.left = left;
-  options.bottom = bottom;
-  options.right = right;
-  options.top = top;
+  auto options = picture(watched(threads, cancel, progress, user), width, height, left, bottom, right, top);
   options.seed = seed;
   options.points = points;
   options.tolerance = tolerance;
@@ -282,9 +267,6 @@ inline ifsm_status ifsm_system_render(ifsm_system system, int32_t width, int32_t
   options.azimuth = azimuth;
   options.elevation = elevation;
   options.field = field;
-  options.cancel = cancel;
-  options.progress = progress;
-  options.user = user;
   return ::ifsm_system_render(system, &options, report, rgba, capacity, count);
 }
 
@@ -302,26 +284,18 @@ inline ifsm_status ifsm_tone_map(const uint32_t *counts, int64_t pixel_count, in
 inline ifsm_status ifsm_system_sample(ifsm_system system, int32_t threads, uint64_t seed, int64_t point_count,
                                       ifsm_cancel cancel, ifsm_progress_callback progress, void *user, double *points,
                                       int64_t capacity, int64_t *count) {
-  auto options = defaults(ifsm_picture_options_init);
-  options.threads = threads;
+  auto options = watched(threads, cancel, progress, user);
   options.seed = seed;
   options.points = point_count;
-  options.cancel = cancel;
-  options.progress = progress;
-  options.user = user;
   return ::ifsm_system_sample(system, &options, points, capacity, count);
 }
 
 inline ifsm_status ifsm_system_sample_addresses(ifsm_system system, int32_t threads, uint64_t seed, int64_t point_count,
                                                 ifsm_cancel cancel, ifsm_progress_callback progress, void *user,
                                                 int32_t length, int32_t *symbols, int64_t capacity, int64_t *count) {
-  auto options = defaults(ifsm_picture_options_init);
-  options.threads = threads;
+  auto options = watched(threads, cancel, progress, user);
   options.seed = seed;
   options.points = point_count;
-  options.cancel = cancel;
-  options.progress = progress;
-  options.user = user;
   return ::ifsm_system_sample_addresses(system, &options, length, symbols, capacity, count);
 }
 

@@ -1658,7 +1658,8 @@ enum { IFSM_PIXEL_EMPTY = 0, IFSM_PIXEL_UNDECIDED = 1, IFSM_PIXEL_MET = 2 };
  * options   borrowed; NULL for defaults. Size, window, threads, tolerance count
  * pixels    [out] width × height times IFSM_PIXEL_…
  *
- * Errors: as ifsm_system_histogram; RANGE also: a tolerance that rounding does not leave. Since 0.1. */
+ * Errors: as ifsm_system_histogram; RANGE also: a tolerance that rounding does not leave; LIMIT: maps that shrink too
+ * slowly for it. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_set(ifsm_system system, const ifsm_picture_options *options,
                                                    ifsm_picture_report *report, uint8_t *pixels, int64_t capacity,
                                                    int64_t *count);
@@ -1679,7 +1680,7 @@ IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_distances(ifsm_system system, con
  * rgba      [out] width × height × 4 bytes: red, green, blue (sRGB), alpha, which is not multiplied in
  *
  * Of space, the nearest point of each pixel, darker where it lies behind its surroundings: points of surfaces should be
- * many. Memory: 5 bytes a computed pixel for densities, 36 for symbols and addresses, 8 in space, times the cores but
+ * many. Memory: 5 bytes a computed pixel for densities, 36 for symbols and addresses, 8 in space, times the threads but
  * for densities. Errors: as ifsm_system_set; SHAPE also: sets and distances of space. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_render(ifsm_system system, const ifsm_picture_options *options,
                                                       ifsm_picture_report *report, uint8_t *rgba, int64_t capacity,

@@ -1089,9 +1089,9 @@ struct Drawn {
 
 namespace detail {
 
-// call(options) with PictureOptions in C's terms; what its progress throws is thrown again.
+// What call(options) returns, with PictureOptions in C's terms; what its progress throws is thrown again.
 template <class Call>
-void with_picture_options(const PictureOptions& options, const Call& call) {
+auto with_picture_options(const PictureOptions& options, const Call& call) {
   ifsm_picture_options told{};
   check(ifsm_picture_options_init(&told, sizeof told));
   told.width = options.width, told.height = options.height, told.threads = options.threads;
@@ -1105,9 +1105,12 @@ void with_picture_options(const PictureOptions& options, const Call& call) {
   if (options.cancel != nullptr) told.cancel = options.cancel->handle();
   Trampoline trampoline{&options.progress};
   if (options.progress) told.progress = Trampoline::call, told.user = &trampoline;
-  const ifsm_status status = call(&told);
-  if (trampoline.thrown) std::rethrow_exception(trampoline.thrown);
-  check(status);
+  try {
+    return call(static_cast<const ifsm_picture_options*>(&told));
+  } catch (const Cancelled&) {
+    if (trampoline.thrown) std::rethrow_exception(trampoline.thrown);
+    throw;
+  }
 }
 
 }  // namespace detail
@@ -1241,18 +1244,15 @@ class System {
     return draw<std::uint8_t>(ifsm_system_render, options);
   }
   std::vector<double> sample(const PictureOptions& options = {}) const {
-    std::vector<double> points;
-    detail::with_picture_options(options, [&](const ifsm_picture_options* told) {
-      return filled(points, [&](auto... to) { return ifsm_system_sample(handle(), told, to...); });
+    return detail::with_picture_options(options, [&](const auto* told) {
+      return detail::fetch<double>([&](auto... to) { return ifsm_system_sample(handle(), told, to...); });
     });
-    return points;
   }
   std::vector<std::int32_t> sample_addresses(int length, const PictureOptions& options = {}) const {
-    std::vector<std::int32_t> symbols;
-    detail::with_picture_options(options, [&](const ifsm_picture_options* told) {
-      return filled(symbols, [&](auto... to) { return ifsm_system_sample_addresses(handle(), told, length, to...); });
+    return detail::with_picture_options(options, [&](const auto* told) {
+      return detail::fetch<std::int32_t>(
+          [&](auto... to) { return ifsm_system_sample_addresses(handle(), told, length, to...); });
     });
-    return symbols;
   }
 
   ifsm_system handle() const noexcept { return handle_.get(); }
@@ -1271,22 +1271,12 @@ class System {
         [&](ifsm_system* made) { return ifsm_system_load(bytes.data(), detail::size_of(bytes.size()), name, made); });
   }
 
-  // The count, then the values; the first status that is none of success.
-  template <class Value, class Call>
-  static ifsm_status filled(std::vector<Value>& values, const Call& call) {
-    std::int64_t count = 0;
-    const ifsm_status status = call(nullptr, 0, &count);
-    if (status != IFSM_OK) return status;
-    values.resize(static_cast<std::size_t>(count));
-    return call(values.data(), count, &count);
-  }
-
   template <class Value, class Function>
   Drawn<Value> draw(const Function& function, const PictureOptions& options) const {
     Drawn<Value> drawn{};
     drawn.report.struct_size = sizeof drawn.report;
-    detail::with_picture_options(options, [&](const ifsm_picture_options* told) {
-      return filled(drawn.values, [&](auto... to) { return function(handle(), told, &drawn.report, to...); });
+    drawn.values = detail::with_picture_options(options, [&](const auto* told) {
+      return detail::fetch<Value>([&](auto... to) { return function(handle(), told, &drawn.report, to...); });
     });
     return drawn;
   }
@@ -1317,13 +1307,10 @@ inline std::vector<ifsm_system_entry> system_catalog() {
 // Red, green, blue, alpha for each count.
 inline std::vector<std::uint8_t> tone_map(const std::vector<std::uint32_t>& counts,
                                           const PictureOptions& options = {}) {
-  std::vector<std::uint8_t> rgba(counts.size() * 4);
-  detail::with_picture_options(options, [&](const ifsm_picture_options* told) {
-    std::int64_t count = 0;
-    return ifsm_tone_map(counts.data(), detail::size_of(counts.size()), told, rgba.data(), detail::size_of(rgba.size()),
-                         &count);
+  return detail::with_picture_options(options, [&](const auto* told) {
+    return detail::fetch<std::uint8_t>(
+        [&](auto... to) { return ifsm_tone_map(counts.data(), detail::size_of(counts.size()), told, to...); });
   });
-  return rgba;
 }
 
 }  // namespace ifsm

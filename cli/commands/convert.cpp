@@ -16,10 +16,11 @@ struct ConvertArguments {
   std::optional<std::string> name;
   std::string output;
   std::string format;
-  int levels = 8;
+  std::optional<int> levels;
   Talk talk;
 };
 
+constexpr int usual_levels = 8;
 const std::vector<std::string> formats{"json", "cbor", "ifs", "model"};
 
 std::string format_of(const ConvertArguments& arguments) {
@@ -59,12 +60,14 @@ std::string in_words(const Json& report) {
 void run(const ConvertArguments& arguments) {
   refuse_json_beside_result(arguments.talk, arguments.output);
   const std::string format = format_of(arguments);
+  if (arguments.levels && format != "model")
+    throw Failure(Exit::Usage, "--levels goes with a model, and " + arguments.output + " is none; leave it out.");
   if (format == "cbor" || format == "model") refuse_binary_on_terminal(arguments.output, ifsm::Format::cbor);
   check_writable(arguments.output);
   if (!names_system(arguments.system)) check_not_read(arguments.output, {arguments.system});
   const auto system = load_system(arguments.system, arguments.name);
   const std::string title = title_of_system(arguments.system, arguments.name);
-  const auto bytes = bytes_of(system, format, title, arguments.levels);
+  const auto bytes = bytes_of(system, format, title, arguments.levels.value_or(usual_levels));
   write_file(arguments.output, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   const auto report = [&] {
     const auto info = system.describe();
@@ -90,7 +93,7 @@ void add_convert(CLI::App& program, Session&) {
                    "What to write: .json, .cbor, .ifs, or a model, .ifsm; - is standard output")
       ->required();
   command->add_option("--name", a.name, "Which of a file of several");
-  command->add_option("--levels", a.levels, "Of a model")->transform(whole_number(0, 20))->capture_default_str();
+  command->add_option("--levels", a.levels, "Of a model (default 8)")->transform(whole_number(0, 20));
   command->add_option("--format", a.format, "json, cbor, ifs or model (default: as the name ends)")
       ->check(one_of(formats));
   add_talk(*command, a.talk);

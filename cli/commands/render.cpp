@@ -207,6 +207,15 @@ void refuse_idle_options(const RenderArguments& arguments, const std::string& fo
                   "--points does not go with --colour " + colour + ", which draws nothing at random; leave it out.");
 }
 
+// Of the plane there is one view.
+void refuse_view(const RenderArguments& arguments) {
+  for (const CLI::Option* option : arguments.of_pictures)
+    for (const char* name : {"--azimuth", "--elevation", "--field"})
+      if (option->check_name(name) && option->count() > 0)
+        throw Failure(Exit::Usage, std::string(name) + " goes with systems of space, and " + arguments.system +
+                                       " is one of the plane; leave it out.");
+}
+
 void run(const RenderArguments& arguments, Session& session) {
   refuse_json_beside_result(arguments.talk, arguments.output);
   const std::string format = format_of(arguments);
@@ -215,6 +224,7 @@ void run(const RenderArguments& arguments, Session& session) {
   check_writable(arguments.output);
   if (!names_system(arguments.system)) check_not_read(arguments.output, {arguments.system});
   const auto system = load_system(arguments.system, arguments.name);
+  if (system.describe().dimension == 2) refuse_view(arguments);
   const std::string title = title_of_system(arguments.system, arguments.name);
   Result result;
   try {

@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 
 #include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -100,6 +101,11 @@ Threads::Threads(int most) : before_(of_this_thread.most) {
 }
 
 Threads::~Threads() { of_this_thread.most = before_; }
+
+std::int64_t threads_at_once() {
+  const int asked = of_this_thread.most > 0 ? of_this_thread.most : default_threads();
+  return asked > 0 ? allowed(asked) : std::max(tbb::info::default_concurrency(), 1);
+}
 
 void parallel_for(std::int64_t chunks, int threads, const std::function<void(std::int64_t chunk)>& body) {
   const int asked = threads > 0 ? threads : of_this_thread.most;

@@ -22,6 +22,9 @@ class Threads {
   int before_;
 };
 
+// On how many threads parallel_for runs here at most: what buffers of one a thread are made for. At least 1.
+std::int64_t threads_at_once();
+
 // Calls body(chunk) once for every chunk in 0 … chunks - 1, on at most `threads` threads (0: as Threads, else the
 // default says). Chunks must not write to the same place. The first exception that a chunk throws is thrown again here,
 // after all have ended. Before a chunk its thread's interrupt is polled. A body may call parallel_for itself: what it

@@ -26,7 +26,7 @@ std::vector<int64_t> word_of(const int32_t* symbols, int64_t count) {
   return {given.begin(), given.end()};
 }
 
-// d doubles; none at all are those of `otherwise`, where there is one.
+// d doubles; where they are optional, none at all are zeros.
 Vector3 vector_of(const double* values, int64_t count, int dimension, const char* argument, const char* count_argument,
                   bool optional) {
   const auto given = input(values, count, argument, count_argument);

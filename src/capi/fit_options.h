@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/cancel.h"
-#include "base/parallel.h"
 #include "capi/arguments.h"
 #include "capi/curves.h"
+#include "capi/options.h"
 #include "fit/fit.h"
 
 namespace ifsm::core {
@@ -27,37 +26,11 @@ inline std::vector<FitCurve> curves_of(const ifsm_curve* curves, std::int64_t co
   return copies;
 }
 
-// A count whose zero means a default.
-inline int count_or(std::int32_t value, std::int32_t most, int otherwise, const char* argument) {
-  in_range(value, 0, most, argument);
-  return value == 0 ? otherwise : value;
-}
-
-// A count whose zero means a default and whose -1 means none, or "choose one".
-inline int count_or_none(std::int32_t value, std::int32_t most, int otherwise, const char* argument) {
-  in_range(value, -1, most, argument);
-  return value == 0 ? otherwise : value == -1 ? 0 : value;
-}
-
-// A number that may not be below zero, and whose zero means a default.
-double positive_or(double value, double otherwise, const char* argument);
-
-// At most so many, for Threads; results never depend on their number.
-inline int threads_of(std::int32_t threads) { return static_cast<int>(in_range(threads, 0, 1024, "threads")); }
-
 inline std::vector<Index> budgets_of(const std::int64_t* budgets, std::int64_t count) {
   constexpr std::int64_t most_budgets = 64;
   in_range(count, 0, most_budgets, "budget_count");
   const auto given = input(budgets, count, "budgets", "budget_count");
   return {given.begin(), given.end()};
-}
-
-template <class Options>
-Watch::Progress progress_of(const Options& given) {
-  if (given.progress == nullptr) return nullptr;
-  return [call = given.progress, user = given.user](double fraction, const char* stage) {
-    return call(user, fraction, stage) != 0;
-  };
 }
 
 // A line to the log.

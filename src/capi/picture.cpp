@@ -6,12 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "base/cancel.h"
-#include "base/parallel.h"
 #include "capi/arguments.h"
-#include "capi/fit_options.h"
 #include "capi/guarded.h"
 #include "capi/nouns.h"
+#include "capi/options.h"
 #include "raster/chaos.h"
 #include "raster/distance.h"
 #include "raster/points.h"
@@ -100,16 +98,6 @@ std::vector<Rgb> colours_of(const uint8_t* stops, int64_t count) {
   return colours;
 }
 
-double in_range_or(double value, double low, double high, double otherwise, const char* argument) {
-  require_finite(value, argument);
-  if (value == 0) return otherwise;
-  if (value >= low && value <= high) return value;
-  throw Error(Status::range, argument,
-              std::string(argument) + " is " + text_of(value) + "; give one from " + text_of(low) + " to " +
-                  text_of(high) + ".")
-      .with(value);
-}
-
 // The options as they are meant, defaults told; all of them are checked, whoever asks.
 class Request {
  public:
@@ -119,7 +107,7 @@ class Request {
     threads_ = threads_of(read_.threads);
     require_window_fields(read_);
     in_range(read_.points, 0, int64_t{1} << 50, "points");
-    in_range_or(read_.tolerance, 0, 1, 0, "tolerance");
+    in_between(read_.tolerance, 0, 1, "tolerance");
     shows_ = choice(read_.colour, Shows::distance, "colour");
     const PaletteName name = choice(read_.palette, PaletteName::ink, "palette");
     stops_ = colours_of(read_.stops, read_.stop_count);
@@ -131,7 +119,7 @@ class Request {
     require_finite(read_.azimuth, "azimuth");
     require_finite(read_.elevation, "elevation");
     constexpr double widest = 3;
-    in_range_or(read_.field, 0, widest, 0, "field");
+    in_between(read_.field, 0, widest, "field");
     token_ = borrow_if_any(read_.cancel, "cancel");
   }
   Request(const Request&) = delete;
@@ -237,10 +225,25 @@ void draw_into(const Request& request, const Window& window, int64_t values_a_pi
   where.write(told);
 }
 
-struct Drawing {
-  Picture pixels;
-  int64_t points = 0, inside = 0, met = 0, undecided = 0;
+// What is drawn of a system of the plane, a value a pixel.
+struct Plane {
+  SystemPtr system;
+  const Request& request;
+  Window window;
+  Watch& watch;
+  ifsm_picture_report& told;
 };
+
+template <class T, class Draw>
+void draw_plane(ifsm_system handle, const ifsm_picture_options* options, ifsm_picture_report* report,
+                const Output<T>& to, int64_t* count, const Draw& draw) {
+  const auto system = borrow(handle);
+  const Request request(options);
+  const Window window = request.plane_window(*system);
+  draw_into(request, window, 1, report, to, count, [&](Watch& watch, ifsm_picture_report& told) {
+    return draw(Plane{system, request, window, watch, told});
+  });
+}
 
 Window finer(Window window, int64_t times) {
   window.width *= times;
@@ -304,42 +307,31 @@ ifsm_status ifsm_picture_options_init(ifsm_picture_options* options, uint32_t si
 ifsm_status ifsm_system_histogram(ifsm_system handle, const ifsm_picture_options* options, ifsm_picture_report* report,
                                   uint32_t* counts, int64_t capacity, int64_t* count) {
   return guarded(__func__, [&] {
-    const auto system = borrow(handle);
-    const Request request(options);
-    const Window window = request.plane_window(*system);
-    draw_into(request, window, 1, report, output(counts, capacity, "counts"), count,
-              [&](Watch& watch, ifsm_picture_report& told) {
-                told.points = points_of(*system, request, false, window, watch);
-                return Counting{system, window, request.seed(), told.points, &watch, &told};
-              });
+    draw_plane(handle, options, report, output(counts, capacity, "counts"), count, [](const Plane& asked) {
+      const auto& [system, request, window, watch, told] = asked;
+      told.points = points_of(*system, request, false, window, watch);
+      return Counting{system, window, request.seed(), told.points, &watch, &told};
+    });
   });
 }
 
 ifsm_status ifsm_system_set(ifsm_system handle, const ifsm_picture_options* options, ifsm_picture_report* report,
                             uint8_t* pixels, int64_t capacity, int64_t* count) {
   return guarded(__func__, [&] {
-    const auto system = borrow(handle);
-    const Request request(options);
-    const Window window = request.plane_window(*system);
-    draw_into(request, window, 1, report, output(pixels, capacity, "pixels"), count,
-              [&](Watch& watch, ifsm_picture_report& told) {
-                auto found = set_pixels(*system, window, request.tolerance(usual_set_tolerance), watch);
-                tell(found, told);
-                return found;
-              });
+    draw_plane(handle, options, report, output(pixels, capacity, "pixels"), count, [](const Plane& asked) {
+      auto found = set_pixels(*asked.system, asked.window, asked.request.tolerance(usual_set_tolerance), asked.watch);
+      tell(found, asked.told);
+      return found;
+    });
   });
 }
 
 ifsm_status ifsm_system_distances(ifsm_system handle, const ifsm_picture_options* options, ifsm_picture_report* report,
                                   double* values, int64_t capacity, int64_t* count) {
   return guarded(__func__, [&] {
-    const auto system = borrow(handle);
-    const Request request(options);
-    const Window window = request.plane_window(*system);
-    draw_into(request, window, 1, report, output(values, capacity, "distances"), count,
-              [&](Watch& watch, ifsm_picture_report&) {
-                return distances(*system, window, request.tolerance(usual_distance_tolerance), watch);
-              });
+    draw_plane(handle, options, report, output(values, capacity, "distances"), count, [](const Plane& asked) {
+      return distances(*asked.system, asked.window, asked.request.tolerance(usual_distance_tolerance), asked.watch);
+    });
   });
 }
 

@@ -21,6 +21,12 @@ namespace {
 
 // How many maps there are.
 int64_t maps_in(int64_t count, int64_t per_map, const char* argument) {
+  if (count > per_map * System::most_maps)
+    throw Error(Status::range, argument,
+                std::string(argument) + " holds " + std::to_string(count) + " doubles, more than " +
+                    std::to_string(System::most_maps) + " maps of " + std::to_string(per_map) +
+                    "; a system has no more: leave some out.")
+        .with(static_cast<double>(count));
   if (count >= per_map && count % per_map == 0) return count / per_map;
   throw Error(Status::shape, argument,
               std::string(argument) + " holds " + std::to_string(count) + " doubles; give " + std::to_string(per_map) +
@@ -65,7 +71,6 @@ SystemPtr system_from(int32_t dimension, const double* values, int64_t count, co
   in_range(dimension, 2, 3, "dimension");
   const auto given = input(values, count, argument, "count");
   const int64_t per_map = numbers_of(dimension), maps = maps_in(given.count, per_map, argument);
-  in_range(maps, 1, System::most_maps, "count");
   require_finite(given.data, given.count, argument);
   std::vector<Affine> affine;
   for (int64_t i = 0; i < maps; ++i) affine.push_back(read(given.data + i * per_map));
@@ -73,26 +78,6 @@ SystemPtr system_from(int32_t dimension, const double* values, int64_t count, co
 }
 
 }  // namespace
-
-namespace ifsm::core {
-
-Affine map_from(const double* rows, int dimension) {
-  Affine map;
-  for (int row = 0; row < dimension; ++row) {
-    for (int column = 0; column < dimension; ++column) map.linear(row, column) = *rows++;
-    map.shift(row) = *rows++;
-  }
-  return map;
-}
-
-void append_rows(const Affine& map, int dimension, std::vector<double>& rows) {
-  for (int row = 0; row < dimension; ++row) {
-    for (int column = 0; column < dimension; ++column) rows.push_back(map.linear(row, column));
-    rows.push_back(map.shift(row));
-  }
-}
-
-}  // namespace ifsm::core
 
 ifsm_status ifsm_system_create(int32_t dimension, const double* maps, int64_t count, const double* probabilities,
                                int64_t probability_count, ifsm_system* system) {

@@ -26,7 +26,7 @@ Frame frame_of(const Points& points) {
 // B^-1, or a singular error: then the points lie on a line, or in a plane.
 Frame inverse_of_frame(const Points& points, const char* argument) {
   const Frame b = frame_of(points);
-  // The points about their middle, in units of their size: what is left of the rows' scale is their flatness.
+  // From the first point on: how flat they are does not depend on where they are.
   Eigen::MatrixXd legs = points.matrix().bottomRows(points.dimension());
   legs.rowwise() -= points.matrix().row(0);
   const Eigen::VectorXd values = svd(legs).values;
@@ -52,9 +52,8 @@ Affine affine_of(const Frame& w, Index dimension) {
   return map;
 }
 
-std::vector<Affine> active_maps(const System& system) {
-  std::vector<Affine> maps;
-  for (const int i : system.active()) maps.push_back(system.maps()[static_cast<std::size_t>(i)]);
+std::vector<Affine> maps_of(const System& system) {
+  std::vector<Affine> maps = system.active_maps();
   constexpr std::size_t fewest = 2, most = 8;
   if (maps.size() >= fewest && maps.size() <= most) return maps;
   throw Error(Status::range, "system",
@@ -62,11 +61,18 @@ std::vector<Affine> active_maps(const System& system) {
       .with(static_cast<double>(maps.size()));
 }
 
+[[noreturn]] void refuse_polygon(const std::string& why) {
+  throw Error(Status::singular, "system",
+              why + ", so that no polygon can be chosen for it; give one (a joined one needs two ends that differ).");
+}
+
 Points corners(const System& system) {
-  const Box box = bounding_box(system, 1e-6 * system.enclosure().axes.norm());
+  const double tolerance = 1e-6 * system.enclosure().axes.norm();
+  const Box box = bounding_box(system, tolerance);
   const Index d = system.dimension();
   Points points(d, d + 1);
   const double side = (box.high - box.low).maxCoeff();
+  if (!(side > 4 * tolerance)) refuse_polygon("The attractor is a single point");
   for (Index k = 0; k <= d; ++k) {
     points.matrix().row(k) = box.low.head(d).transpose();
     if (k > 0) points.matrix()(k, k - 1) += side;
@@ -79,6 +85,7 @@ Points chain(const System& system, const std::vector<Affine>& maps) {
   const Index d = system.dimension();
   const Vector3 first = fixed_point(maps.front()), last = fixed_point(maps.back());
   const Vector3 along = last - first;
+  if (!(along.norm() > 0)) refuse_polygon("The chain ends where it begins");
   const Vector3 aside = d == 2 ? Vector3::UnitZ().cross(along) : Vector3(along.norm() * along.unitOrthogonal());
   const Vector3 sides[] = {aside, along.normalized().cross(aside)};
   Points points(d, d + 1);
@@ -164,7 +171,7 @@ SystemPtr system_of(const Model& model) {
 ModelPtr model_of(const System& system, Topology topology, const Points& polygon, int levels) {
   static_cast<void>(system.enclosure());  // contractive, or an error that says why not
   const Index d = system.dimension();
-  const std::vector<Affine> maps = active_maps(system);
+  const std::vector<Affine> maps = maps_of(system);
   const bool joined = topology == Topology::joined;
   const bool given = polygon.count() > 0;
   const Points places = given ? polygon : joined ? chain(system, maps) : corners(system);

@@ -20,8 +20,8 @@ struct FlameSystem {
 
 // All flames of a file, in its order, whatever elements are around them; one without a name has its number, from 1.
 // A file that is no XML, or too large, is a format error. A flame that is no system, or not affine, has an error of its
-// own that names the flame and its transform ("xform 2 of the flame "x""), or the system's own; the line where the
-// element begins, counted from 1, is in the text and the index.
+// own, which names the flame and its transform ("xform 2 of the flame "x""); the line where the element begins, counted
+// from 1, is in the text and the index.
 std::vector<FlameSystem> read_flame(std::string_view text);
 
 }  // namespace ifsm::core

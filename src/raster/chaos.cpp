@@ -7,7 +7,6 @@
 #include <numeric>
 #include <span>
 #include <string>
-#include <thread>
 #include <utility>
 
 #include "base/error.h"
@@ -138,12 +137,10 @@ std::int64_t play(const Game<double>& game, std::int64_t chunk, std::span<std::i
 // Of all histograms together, below which memory is no matter: 80 MB.
 constexpr std::int64_t small_pixels = 2 * counted_in_place;
 
-std::int64_t most_groups() { return std::max(std::int64_t{std::thread::hardware_concurrency()}, std::int64_t{1}); }
-
 // Histograms that are filled side by side, added up at the end: as many as there are threads, but a single one where
 // more would take more memory than the counts themselves by a quarter.
 std::int64_t histograms_of(const Window& window) {
-  return std::clamp(small_pixels / window.pixels(), std::int64_t{1}, most_groups());
+  return std::clamp(small_pixels / window.pixels(), std::int64_t{1}, threads_at_once());
 }
 
 // play(chunk, histogram) tells how many points are inside.
@@ -180,7 +177,7 @@ void clear(std::span<std::uint32_t> counts, const Watch& watch) {
 std::int64_t in_bands(const Game<double>& game, std::span<std::uint32_t> counts, Watch& watch) {
   constexpr std::int64_t pieces = points_per_chunk / Bands::piece;  // a chunk
   clear(counts, watch);
-  Bands bands(counts, pieces * game.chunks(), most_groups());
+  Bands bands(counts, pieces * game.chunks(), threads_at_once());
   const std::int64_t round = bands.slots() / pieces;
   std::vector<std::int64_t> inside(static_cast<std::size_t>(bands.groups()), 0);
   const auto fraction = [&](double chunks) { return chunks / static_cast<double>(game.chunks()); };

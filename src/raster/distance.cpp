@@ -3,30 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "raster/piece.h"
 #include "system/reach.h"
 
 namespace ifsm::core {
 namespace {
-
-// x → (a b; c d) x + (e, f), and the piece of the attractor under it: in a frame about the image of the enclosure's
-// middle.
-struct Piece {
-  double a, b, c, d, e, f;
-
-  Piece then(const Piece& m) const {
-    return {a * m.a + b * m.c, a * m.b + b * m.d,     c * m.a + d * m.c,
-            c * m.b + d * m.d, a * m.e + b * m.f + e, c * m.e + d * m.f + f};
-  }
-  double x(double u, double v) const { return a * u + b * v + e; }
-  double y(double u, double v) const { return c * u + d * v + f; }
-};
-
-Piece piece_of(const Affine& map) {
-  return {map.linear(0, 0), map.linear(0, 1), map.linear(1, 0), map.linear(1, 1), map.shift(0), map.shift(1)};
-}
 
 struct Spot {
   double x, y;
@@ -53,11 +38,11 @@ class Field {
         per_row_((window.top - window.bottom) / static_cast<double>(window.height) / unit),
         tolerance_(tolerance),
         watch_(watch) {
-    for (const int i : system.active()) maps_.push_back(in_units(system.maps()[static_cast<std::size_t>(i)]));
+    for (const Affine& map : system.active_maps()) maps_.push_back(in_units(map));
     const Vector3 centre = place_of((box.low + box.high) / 2), half = (box.high - box.low) / (2 * unit);
     centre_ = {centre(0), centre(1)};
     half_ = {half(0), half(1)};
-    const Vector3 point = place_of(fixed_point(system.maps()[static_cast<std::size_t>(system.active()[0])]));
+    const Vector3 point = place_of(system.point());
     point_ = {point(0), point(1)};
   }
 
@@ -92,9 +77,8 @@ class Field {
   // From the window's corner, in units.
   Vector3 place_of(const Vector3& x) const { return (x - Vector3(window_.left, window_.top, 0)) / unit_; }
   Piece in_units(const Affine& map) const {
-    Affine moved = map;
-    moved.shift = place_of(map(Vector3(window_.left, window_.top, 0)));
-    return piece_of(moved);
+    const Vector3 shift = place_of(map(Vector3(window_.left, window_.top, 0)));
+    return {map.linear(0, 0), map.linear(0, 1), map.linear(1, 0), map.linear(1, 1), shift(0), shift(1)};
   }
 
   Spot place(double row, double column) const { return {column * per_column_, -row * per_row_}; }
@@ -133,7 +117,7 @@ class Field {
           finer.push_back(frame);
           continue;
         }
-        for (const Piece& map : maps_) finer.push_back(frame_of(frame.piece.then(map)));
+        for (const Piece& map : maps_) finer.push_back(frame_of(frame.piece * map));
         split = true;
       }
       frames = std::move(finer);
@@ -169,14 +153,25 @@ class Field {
       if (best <= tolerance_) return;
       const Frame frame = orders_[depth][k].frame;
       if (least(frame, from) >= best - tolerance_) continue;
+      if (depth > longest_word) refuse_words();
       std::vector<Near>& finer = order_at(depth + 1);
       for (const Piece& map : maps_) {
-        const Frame next = frame_of(frame.piece.then(map));
+        const Frame next = frame_of(frame.piece * map);
         finer.push_back({between(next.point, from), next});
         best = std::min(best, finer.back().known);
       }
       descend(from, best, depth + 1);
     }
+  }
+
+  // What the stack holds, too.
+  static constexpr std::size_t longest_word = 4096;
+  [[noreturn]] void refuse_words() const {
+    throw Error(Status::limit, "tolerance",
+                "Pieces of words of " + std::to_string(longest_word) +
+                    " maps are still larger than the tolerance: the maps shrink too slowly for this; give a larger "
+                    "tolerance, up to 1, or larger pixels.")
+        .with(tolerance_);
   }
 
   Window window_;

@@ -58,8 +58,7 @@ Eight far_points(const std::vector<Piece>& maps, double x, double y) {
       double most = points.x[sector] * along_x + points.y[sector] * along_y;
       for (const Piece& map : maps)
         for (std::size_t k = 0; k < 8; ++k) {
-          const double image_x = map.a * before.x[k] + map.b * before.y[k] + map.e,
-                       image_y = map.c * before.x[k] + map.d * before.y[k] + map.f;
+          const double image_x = map.x(before.x[k], before.y[k]), image_y = map.y(before.x[k], before.y[k]);
           if (image_x * along_x + image_y * along_y <= most) continue;
           most = image_x * along_x + image_y * along_y;
           points.x[sector] = image_x, points.y[sector] = image_y;
@@ -81,13 +80,12 @@ InPixels::InPixels(const System& system, const Window& window) {
   reach.set_middle(middle);
   corners = octagon(reach);
 
-  for (const int i : system.active()) {
-    const Affine& map = system.maps()[static_cast<std::size_t>(i)];
+  for (const Affine& map : system.active_maps()) {
     const Vector3 moved = map(middle) - middle;
     maps.push_back({map.linear(0, 0), map.linear(0, 1) * across / down, map.linear(1, 0) * down / across,
                     map.linear(1, 1), moved(0) * across, moved(1) * down});
   }
-  const Vector3 point = fixed_point(system.maps()[static_cast<std::size_t>(system.active()[0])]) - middle;
+  const Vector3 point = system.point() - middle;
   points = far_points(maps, point(0) * across, point(1) * down);
   whole = {1, 0, 0, 1, (middle(0) - window.left) * across, (middle(1) - window.top) * down};
 

@@ -6,19 +6,10 @@
 #include <vector>
 
 #include "raster/chaos.h"
+#include "raster/piece.h"
 #include "system/system.h"
 
 namespace ifsm::core {
-
-// x → M x + t of the plane. Affine's without what is zero in the plane: a third of the products, in the innermost loop.
-struct Piece {
-  double a, b, c, d, e, f;
-
-  friend Piece operator*(const Piece& p, const Piece& q) {
-    return {p.a * q.a + p.b * q.c, p.a * q.b + p.b * q.d,       p.c * q.a + p.d * q.c,
-            p.c * q.b + p.d * q.d, p.a * q.e + p.b * q.f + p.e, p.c * q.e + p.d * q.f + p.f};
-  }
-};
 
 // A point for each eighth of the directions; that of (a, b) is number (a < 0) + 2 (b < 0) + 4 (|b| > |a|).
 struct Eight {

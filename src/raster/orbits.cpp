@@ -30,8 +30,7 @@ Coefficients<Real>::Coefficients(const System& system) : choice(system.probabili
 template struct Coefficients<float>;
 template struct Coefficients<double>;
 
-Start::Start(const System& system)
-    : letter(system.active()[0]), point(fixed_point(system.maps()[static_cast<std::size_t>(letter)])), steps(0) {
+Start::Start(const System& system) : letter(system.active()[0]), point(system.point()), steps(0) {
   const Choice choice(system.probabilities());
   constexpr int rounds = 4;
   constexpr double forgotten = 0x1p-32;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <thread>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -72,7 +71,7 @@ void sample(const System& system, std::uint64_t seed, std::int64_t count, double
             std::int32_t* letters, Watch& watch) {
   const Sampler<d> sampler(system, seed, letters == nullptr ? 0 : length);
   const std::int64_t chunks = (count + points_per_chunk - 1) / points_per_chunk;
-  const auto round = std::max(std::int64_t{std::thread::hardware_concurrency()}, std::int64_t{1});
+  const std::int64_t round = threads_at_once();
   for (std::int64_t done = 0; done < chunks; done += round) {  // between rounds, progress is told
     parallel_for(std::min(round, chunks - done), 0, [&](std::int64_t within) {
       const std::int64_t first = (done + within) * points_per_chunk;

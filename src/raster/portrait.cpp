@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <thread>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -114,8 +113,7 @@ Canvas paint(const System& system, const Colours& colours, const Canvas& empty, 
   const WalkMaps<d> maps(system);
   const Start start(system);
   const std::int64_t chunks = (points + points_per_chunk - 1) / points_per_chunk;
-  const auto threads = std::max<std::int64_t>(std::thread::hardware_concurrency(), 1);
-  std::vector<Canvas> canvases(static_cast<std::size_t>(std::clamp<std::int64_t>(chunks, 1, threads)), empty);
+  std::vector<Canvas> canvases(static_cast<std::size_t>(std::clamp<std::int64_t>(chunks, 1, threads_at_once())), empty);
   const auto groups = static_cast<std::int64_t>(canvases.size());
   for (std::int64_t done = 0; done < chunks; done += groups) {
     parallel_for(std::min(groups, chunks - done), 0, [&](std::int64_t group) {
@@ -166,7 +164,7 @@ class alignas(apart) LightSums {
     }
   }
 
-  // Mean colours; where points are few, fainter: as light as the palettes begin.
+  // Mean colours; where points are few, nearer to white.
   Portrait portrait() const {
     Portrait made;
     const std::size_t pixels = sums_.size() - 1;
@@ -280,7 +278,8 @@ std::int64_t points_for(const System& system, const Window& window, std::uint64_
   whole.width = whole.height = 1;
   Watch part = watch.part(0, 0);
   const std::int64_t inside = std::max<std::int64_t>(chaos_counts(system, whole, seed, asked, part).inside, 1);
-  return window.pixels() * a_pixel * std::min((asked + inside - 1) / inside, most_times);
+  const std::int64_t all = window.pixels() * a_pixel;  // if all fell there; windows have 2^30 pixels at most
+  return std::min(all * asked / inside, all * most_times);
 }
 
 Portrait plane_portrait(const System& system, const Window& window, const Look& look, std::uint64_t seed,
@@ -301,7 +300,9 @@ Portrait plane_portrait(const System& system, const Window& window, const Look& 
 Portrait space_portrait(const System& system, const View& view, const Window& window, const Look& look,
                         std::uint64_t seed, std::int64_t points, Watch& watch) {
   require_window(window);
-  in_range(system.dimension(), 3, 3, "system");
+  if (system.dimension() != 3)
+    throw Error(Status::shape, "system", "The system lies in the plane, which has no points of view; draw it as one.")
+        .with(system.dimension());
   static_cast<void>(system.enclosure());
   require_points(points);
   const Colours colours(system, look);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "base/error.h"
 #include "system/reach.h"
@@ -58,23 +59,24 @@ class Cells {
 class Counter {
  public:
   Counter(const System& system, int finest, const Box& box, double side)
-      : system_(system),
+      : dimension_(system.dimension()),
+        maps_(system.active_maps()),
         cells_(system.dimension(), finest),
         low_(box.low),
         per_unit_(static_cast<double>(cells_.side()) / side),
         middle_((box.low + box.high) / 2),
         half_((box.high - box.low) / 2),
-        point_(fixed_point(system.maps()[static_cast<std::size_t>(system.active()[0])])) {}
+        point_(system.point()) {}
 
   Cells run(Watch& watch) {
-    std::vector<Affine> open = {Affine::identity(system_.dimension())};
+    std::vector<Affine> open = {Affine::identity(dimension_)};
     for (std::int64_t steps = 0; !open.empty(); ++steps) {
       constexpr std::int64_t steps_per_poll = 1 << 12;
       if (steps % steps_per_poll == 0) watch.poll();
       const Affine piece = open.back();
       open.pop_back();
       if (decided(piece)) continue;
-      for (const int i : system_.active()) open.push_back(piece * system_.maps()[static_cast<std::size_t>(i)]);
+      for (const Affine& map : maps_) open.push_back(piece * map);
     }
     return std::move(cells_);
   }
@@ -82,7 +84,7 @@ class Counter {
  private:
   Cell cell_of(const Vector3& x) const {
     Cell cell{};
-    for (int axis = 0; axis < system_.dimension(); ++axis) {
+    for (int axis = 0; axis < dimension_; ++axis) {
       const auto place = static_cast<std::int64_t>(std::floor((x(axis) - low_(axis)) * per_unit_));
       cell[static_cast<std::size_t>(axis)] = std::clamp(place, std::int64_t{0}, cells_.side() - 1);
     }
@@ -104,17 +106,24 @@ class Counter {
     return cells_.all_met(low, high);
   }
 
-  const System& system_;
+  int dimension_;
+  std::vector<Affine> maps_;
   Cells cells_;
   Vector3 low_;
   double per_unit_;
   Vector3 middle_, half_, point_;
 };
 
+struct TightBox {
+  Box box;
+  double tolerance;
+};
+
 // Tight, since grids and shapes often share their sides; less so where that takes too many pieces.
-Box tight_box(const System& system, double size) {
-  const auto within = [&](double share) {
-    return bounding_box(system, std::max(share * size, std::numeric_limits<double>::min()));
+TightBox tight_box(const System& system) {
+  const auto within = [&](double share) -> TightBox {
+    const double tolerance = std::max(share * system.enclosure().axes.norm(), std::numeric_limits<double>::min());
+    return {bounding_box(system, tolerance), tolerance};
   };
   try {
     return within(1e-12);
@@ -128,12 +137,10 @@ Box tight_box(const System& system, double size) {
 
 BoxCounts count_boxes(const System& system, int finest, Watch& watch) {
   constexpr int coarsest = 4;  // of the fit
-  constexpr double tolerance = 1e-12;
   in_range(finest, coarsest + 2, system.dimension() == 2 ? 13 : 9, "finest");
-  const double size = system.enclosure().axes.norm();
-  const Box box = tight_box(system, size);
+  const auto [box, tolerance] = tight_box(system);
   const double side = (box.high - box.low).maxCoeff();
-  if (!(side > 4 * tolerance * size) || side == 0)
+  if (!(side > 4 * tolerance))
     throw Error(Status::shape, "system",
                 "The attractor is a single point, which has no scales; give maps that move it.");
   Cells cells = Counter(system, finest, box, side).run(watch);

@@ -44,10 +44,7 @@ class Search {
                   "tolerance is " + text_of(tolerance) + "; give a finite one above " + text_of(least * size_) +
                       ", 2^-44 of the attractor's size.")
           .with(tolerance);
-    for (const int i : system.active()) {
-      const Affine& map = system.maps()[static_cast<std::size_t>(i)];
-      maps_.push_back({map.linear, map(middle_) - middle_});
-    }
+    for (const Affine& map : system.active_maps()) maps_.push_back({map.linear, map(middle_) - middle_});
     inside_ = fixed_point(maps_[0]);
   }
 

@@ -101,6 +101,12 @@ System::System(int dimension, std::vector<Affine> maps, std::vector<double> weig
       active_(positive(probabilities_)),
       contraction_(contraction_of(dimension, maps_, active_)) {}
 
+std::vector<Affine> System::active_maps() const {
+  std::vector<Affine> taken;
+  for (const int i : active_) taken.push_back(maps_[static_cast<std::size_t>(i)]);
+  return taken;
+}
+
 const Ellipsoid& System::enclosure() const {
   if (contraction_.answer == Contractivity::refuted)
     throw Error(Status::range, "system",

@@ -28,6 +28,11 @@ class System {
 
   // Numbers of the maps of a probability above 0.
   const std::vector<int>& active() const { return active_; }
+  // These maps themselves.
+  std::vector<Affine> active_maps() const;
+
+  // A point of the attractor, if there is one: what the first active map leaves where it is.
+  Vector3 point() const { return fixed_point(maps_[static_cast<std::size_t>(active_[0])]); }
 
   // `word` in numbers of all maps.
   const Contraction& contraction() const { return contraction_; }

@@ -217,4 +217,17 @@ TEST(ParallelFor, IsLeftWhenTheCallersInterruptSaysSo) {
   }
 }
 
+TEST(ThreadsAtOnce, AreThoseThatTheCallThenTheProcessAllows) {
+  const std::int64_t all = threads_at_once();
+  EXPECT_GE(all, 1);
+  set_default_threads(1);
+  EXPECT_EQ(threads_at_once(), 1);
+  set_default_threads(0);
+  {
+    const Threads one(1);
+    EXPECT_EQ(threads_at_once(), 1);
+  }
+  EXPECT_EQ(threads_at_once(), all);
+}
+
 }  // namespace

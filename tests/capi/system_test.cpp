@@ -112,7 +112,7 @@ TEST_F(Systems, RefuseMapsAndProbabilitiesByName) {
   FAILS(ifsm_system_create(2, maps.data(), 11, nullptr, 0, &system), IFSM_ERROR_SHAPE, "maps");
   FAILS(ifsm_system_create(2, maps.data(), 0, nullptr, 0, &system), IFSM_ERROR_SHAPE, "maps");
   const Doubles many(6 * 257);
-  FAILS(ifsm_system_create(2, many.data(), 6 * 257, nullptr, 0, &system), IFSM_ERROR_RANGE, "count");
+  FAILS(ifsm_system_create(2, many.data(), 6 * 257, nullptr, 0, &system), IFSM_ERROR_RANGE, "maps");
   const double one[] = {1}, negative[] = {1, -1}, none[] = {0, 0};
   FAILS(ifsm_system_create(2, maps.data(), 12, one, 1, &system), IFSM_ERROR_SHAPE, "probabilities");
   FAILS(ifsm_system_create(2, maps.data(), 12, negative, 2, &system), IFSM_ERROR_RANGE, "probabilities");

@@ -160,6 +160,8 @@ class Systems(Program):
         self.refused(2, "--tolerance goes with", "render", "fern", "--tolerance", .5, "-o", png)
         self.refused(2, "--points does not go", "render", "fern", "--points", 5, "--colour", "set", "-o", png)
         self.refused(2, "with left < right", "render", "fern", "--window", "0,0,0,0", "-o", png)
+        self.refused(2, "--azimuth goes with systems of space", "render", "fern", "--azimuth", 5, "-o", png)
+        self.refused(2, "--levels goes with a model", "convert", "fern", "--levels", 5, "-o", self.file("x.json"))
         self.refused(2, "has 20 active maps", "convert", "sponge", "-o", self.file("x.ifsm"))
 
     def test_a_small_window_on_the_stem_is_not_said_to_miss(self):

@@ -109,4 +109,15 @@ TEST(SystemOfAModel, NeedsOnePointMoreThanDimensions) {
   EXPECT_EQ(refusal([&] { system_of(*flat); }).status(), Status::singular);
 }
 
+TEST(ModelOfASystem, SaysWhenNoPolygonCanBeChosen) {
+  Affine half = Affine::identity(2), quarter = half;
+  half.linear *= .5, quarter.linear *= .25;
+  const System point(2, {half, quarter});  // its attractor is the origin
+  for (const Topology topology : {Topology::joined, Topology::square}) {
+    const Error error = refusal([&] { model_of(point, topology, {}, 2); });
+    EXPECT_EQ(error.status(), Status::singular);
+    EXPECT_EQ(error.argument(), "system");
+  }
+}
+
 }  // namespace

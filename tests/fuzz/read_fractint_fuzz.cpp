@@ -1,26 +1,16 @@
 // Any bytes: read_fractint gives systems or throws an Error with a line. What it gives is written, and read again as
 // the same.
-#include <cstdlib>
-
-#include "base/error.h"
 #include "io/fractint.h"
+#include "require.h"
 
 using namespace ifsm::core;
-
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<FractintSystem> all;
   try {
     all = read_fractint({reinterpret_cast<const char*>(data), size});
   } catch (const Error& error) {
-    require(error.status() != Status::internal && error.index() >= 1);
+    require_line(error);
     return 0;
   }
   for (const FractintSystem& each : all) {

@@ -1,18 +1,13 @@
 // Any bytes: read_model gives a model or throws an Error. A model that it gives is written, and read again as the same.
-#include <cstdlib>
-
 #include "io/model_reader.h"
 #include "io/model_writer.h"
+#include "require.h"
 
 using namespace ifsm::core;
 
 namespace {
 
 constexpr Index most_doubles = 1 << 16;  // deeper trees are sound as well, and slow
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 void check_round_trip(const Model& model) {
   if (tree_doubles(model.shape(), model.dimension(), model.levels()) > most_doubles) return;

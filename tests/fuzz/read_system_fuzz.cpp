@@ -1,18 +1,8 @@
 // Any bytes: read_system gives a system or throws an Error. One that it gives is written, and read again as the same.
-#include <cstdlib>
-
-#include "base/error.h"
 #include "io/system_file.h"
+#include "require.h"
 
 using namespace ifsm::core;
-
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   SystemPtr system;

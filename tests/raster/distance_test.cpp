@@ -234,17 +234,34 @@ TEST(Distances, RefuseTolerancesByName) {
   EXPECT_EQ(refusal([&] { far(*fern, {0, 0, 1, -1, 2, 2}); }).argument(), "window");
 }
 
-TEST(Distances, AreCancelledWithinABlock) {
+// Its words of a thousand letters are as large as nine tenths of it.
+System slowly_turning() {
   const double c = .9999 * std::cos(.1), s = .9999 * std::sin(.1);
   Affine turning, half;
   turning.linear.topLeftCorner<2, 2>() << c, -s, s, c;
   turning.shift(0) = 1;
   half.linear.topLeftCorner<2, 2>() << .5, 0, 0, .5;
-  const System slow(2, {turning, half});
+  return {2, {turning, half}};
+}
+
+TEST(Distances, AreCancelledWithinABlock) {
+  const System slow = slowly_turning();
   const double size = slow.enclosure().axes.norm();
   int asked = 0;
   Watch watch(nullptr, [&](double, const char*) { return ++asked > 1; });
   EXPECT_THROW(distances(slow, {-size, -size, size, size, 512, 512}, 1. / 8, watch), Cancelled);
+}
+
+// A turn that hardly shrinks: neither the stack nor the caller's patience is endless.
+TEST(Distances, EndWhenWordsBecomeTooLong) {
+  const System slow = slowly_turning();
+  const double side = slow.enclosure().axes.norm() / 1000;
+  const Vector3 middle = slow.enclosure().centre;
+  const Window window{middle(0) - side, middle(1) - side, middle(0) + side, middle(1) + side, 4, 4};
+  Watch watch;
+  const Error error = refusal([&] { distances(slow, window, 1. / 64, watch); });
+  EXPECT_EQ(error.status(), Status::limit);
+  EXPECT_EQ(error.argument(), "tolerance");
 }
 
 }  // namespace

@@ -304,4 +304,15 @@ TEST(Portraits, RefuseByName) {
   EXPECT_EQ(refusal([&] { portrait(System(2, {plane(2, 0, 0, 2, 0, 0)}), window, letters, 10); }).argument(), "system");
 }
 
+TEST(PointsFor, AreSoManyThatThoseInTheWindowSuffice) {
+  const auto gasket = named_system("gasket_right");
+  Watch watch;
+  const auto asked = [&](const Window& window) { return points_for(*gasket, window, 1, 16, watch); };
+  constexpr std::int64_t all = 16 * 100 * 50;
+  EXPECT_EQ(asked({-1, -1, 2, 2, 100, 50}), all);
+  EXPECT_EQ(asked({5, 5, 6, 6, 100, 50}), 64 * all);  // a window that nothing falls into
+  // A ninth of the measure: of 2^20 points within some thousandths.
+  EXPECT_NEAR(static_cast<double>(asked({0, 0, .25, .25, 100, 50})), 9. * all, .1 * all);
+}
+
 }  // namespace

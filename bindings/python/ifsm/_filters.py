@@ -3,7 +3,7 @@ import numpy as np
 
 from . import _arrays, _native
 from ._errors import Status, invalid_value
-from ._objects import Handled
+from ._objects import Immutable
 
 TOPOLOGIES = {"joined": _native.IFSM_TOPOLOGY_JOINED, "square": _native.IFSM_TOPOLOGY_SQUARE}
 SQUARE_NAMES = ("haar", "bspline", "four-point", "koch", "takagi")
@@ -11,7 +11,7 @@ _NAMES = {number: name for name, number in TOPOLOGIES.items()}
 _PROOFS = {1: True, -1: False, 0: None}
 
 
-class Filter(Handled):
+class Filter(Immutable):
     """The matrix R, under which neighbours share their end points (``joined``) or places (``square``).
 
     Immutable; share it between threads. Equal filters have equal matrices, bit for bit.
@@ -43,12 +43,6 @@ class Filter(Handled):
     def __init__(self, name, *, topology="joined", control_points=0, maps=0):
         kind = _arrays.choice(topology, TOPOLOGIES, "ifsm.Filter", "topology")
         self._take(_native.ifsm_filter_named(name, kind, control_points, maps))
-
-    @classmethod
-    def _of(cls, native):
-        self = cls.__new__(cls)
-        self._take(native)
-        return self
 
     def _take(self, native):
         self._native = native
@@ -139,12 +133,6 @@ class Filter(Handled):
 
     def __reduce__(self):
         return _filter_again, (self.topology, self.control_points, self.maps, self.stride, self.matrix.copy())
-
-    def __copy__(self):
-        return self
-
-    def __deepcopy__(self, memo):
-        return self
 
     def __repr__(self):
         if self._native is None:

@@ -8,7 +8,7 @@ from . import _arrays, _curves, _native, _progress
 from ._answers import Dimension, Distances, Nearest, Spectrum, crossings
 from ._errors import Error, Status, invalid_type, invalid_value, naming, of_one, rename
 from ._filters import SQUARE_NAMES, Filter
-from ._objects import Handled, native_of
+from ._objects import Saved, native_of
 
 FRAMES = {"absolute": _native.IFSM_FRAME_ABSOLUTE, "node": _native.IFSM_FRAME_NODE}
 FOLLOWED = {"polyline": _native.IFSM_CURVE_POLYLINE, "limit": _native.IFSM_CURVE_LIMIT}
@@ -20,7 +20,7 @@ FORMATS = {"json": _native.IFSM_FORMAT_JSON, "cbor": _native.IFSM_FORMAT_CBOR}
 _METHODS = {"boxes": _native.IFSM_DIMENSION_BOXES, "divider": _native.IFSM_DIMENSION_DIVIDER}
 
 
-class Model(Handled):
+class Model(Saved):
     """A curve as a control polygon, a filter, and a tree of detail vectors.
 
     Immutable: every change is a new model. Share it between threads. Two are equal when they say the same bit for bit;
@@ -55,12 +55,6 @@ class Model(Handled):
         samples, ring = _curves.curve(points, closed, "ifsm.Model")
         chosen = _filter(filter, "ifsm.Model", "filter")
         self._take(_native.ifsm_model_create(chosen, (samples, ring), levels))
-
-    @classmethod
-    def _of(cls, native):
-        self = cls.__new__(cls)
-        self._take(native)
-        return self
 
     def _take(self, native):
         self._native = native
@@ -401,27 +395,6 @@ class Model(Handled):
         except Error as error:
             error.args = (f"{os.fsdecode(path)}: {error.args[0]}", *error.args[1:])
             raise
-
-    def __eq__(self, other):
-        if not isinstance(other, Model):
-            return NotImplemented
-        if self is other:
-            return True
-        return hash(self) == hash(other) and self.to_bytes() == other.to_bytes()
-
-    def __hash__(self):
-        if self._hash is None:
-            self._hash = hash(self.to_bytes())
-        return self._hash
-
-    def __reduce__(self):
-        return Model.from_bytes, (self.to_bytes(),)
-
-    def __copy__(self):
-        return self
-
-    def __deepcopy__(self, memo):
-        return self
 
     # ---- how it shows itself ----------------------------------------------------------------------------------
 

@@ -31,6 +31,50 @@ class Handled:
         return native
 
 
+class Immutable(Handled):
+    """Never changes, so that it is its own copy. What there is to know of a new one, `_take` keeps."""
+
+    __slots__ = ()
+
+    @classmethod
+    def _of(cls, native):
+        self = cls.__new__(cls)
+        self._take(native)
+        return self
+
+    def __copy__(self):
+        return self
+
+    def __deepcopy__(self, memo):
+        return self
+
+
+class Saved(Immutable):
+    """Is what its bytes are: equal when they are, pickled as they. ``_take`` sets ``_hash`` to None."""
+
+    __slots__ = ()
+
+    def __init_subclass__(cls, **named):
+        super().__init_subclass__(**named)
+        if Saved in cls.__bases__:
+            cls._kind = cls  # also of those that are derived from it
+
+    def __eq__(self, other):
+        if not isinstance(other, self._kind):
+            return NotImplemented
+        if self is other:
+            return True
+        return hash(self) == hash(other) and self.to_bytes() == other.to_bytes()
+
+    def __hash__(self):
+        if self._hash is None:
+            self._hash = hash(self.to_bytes())
+        return self._hash
+
+    def __reduce__(self):
+        return self._kind.from_bytes, (self.to_bytes(),)
+
+
 def native_of(given, kind, function, argument):
     """The handle of an argument that must be a `kind`."""
     if not isinstance(given, kind):

@@ -10,7 +10,7 @@ from ._answers import Dimension
 from ._errors import Status, invalid_value, naming
 from ._filters import _PROOFS, TOPOLOGIES
 from ._models import Model, as_bytes
-from ._objects import native_of
+from ._objects import Saved, native_of
 from ._pictures import Pictured
 
 FORMATS = {"json": _native.IFSM_FORMAT_JSON, "cbor": _native.IFSM_FORMAT_CBOR, "fractint": _native.IFSM_FORMAT_FRACTINT}
@@ -24,7 +24,7 @@ class Ball(NamedTuple):
     radius: float
 
 
-class System(Pictured):
+class System(Saved, Pictured):
     """An iterated function system: affine maps x → M x + t, and how likely each is.
 
     Its *attractor* is the one compact set that is the union of its images under the maps. A *word* is a list of maps, the
@@ -60,12 +60,6 @@ class System(Pictured):
         shares = _given.vector(weights, len(rows), function, "weights", optional=True)
         with naming(probabilities="weights", count="maps"):
             self._take(_native.ifsm_system_create(dimension, rows, shares))
-
-    @classmethod
-    def _of(cls, native):
-        self = cls.__new__(cls)
-        self._take(native)
-        return self
 
     def _take(self, native):
         self._native = native
@@ -352,27 +346,6 @@ class System(Pictured):
                 return _arrays.fetched(_native.ifsm_system_file_names, data, dtype=np.uint8).tobytes().decode().split("\n")[:-1]
 
         return _given.of_file(file, names, "ifsm.System.file_names")
-
-    def __eq__(self, other):
-        if not isinstance(other, System):
-            return NotImplemented
-        if self is other:
-            return True
-        return hash(self) == hash(other) and self.to_bytes() == other.to_bytes()
-
-    def __hash__(self):
-        if self._hash is None:
-            self._hash = hash(self.to_bytes())
-        return self._hash
-
-    def __reduce__(self):
-        return System.from_bytes, (self.to_bytes(),)
-
-    def __copy__(self):
-        return self
-
-    def __deepcopy__(self, memo):
-        return self
 
     # ---- how it shows itself ----------------------------------------------------------------------------------
 

@@ -1,6 +1,8 @@
 """What all tests share: curves, and the names that examples in docstrings use."""
 import os
 import pathlib
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -54,3 +56,33 @@ def refused():
             assert getattr(error, name) == value or value != value, name
         return error
     return check
+
+
+INTERRUPTED = """
+import os, signal, threading, time
+import numpy as np, ifsm
+BEFORE
+sent = []
+def interrupt():
+    time.sleep(0.5)
+    sent.append(time.perf_counter())
+    os.kill(os.getpid(), signal.SIGINT)
+threading.Thread(target=interrupt).start()
+try:
+    PROGRAM
+except KeyboardInterrupt:
+    print(time.perf_counter() - sent[0])
+AFTER
+"""
+
+
+@pytest.fixture(scope="session")
+def seconds_to_interrupt():
+    """Runs lines before, a long program, and lines after in a process of its own; tells how soon Ctrl-C ended the program."""
+    def run(before, program, after):
+        text = INTERRUPTED.replace("BEFORE", before).replace("PROGRAM", program).replace("AFTER", after)
+        done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, done.stderr
+        return float(done.stdout)
+
+    return run
