@@ -26,8 +26,8 @@ constexpr std::array<std::uint64_t, 256> lane_numbers() {
 }
 inline constexpr std::array<std::uint64_t, 256> numbers_of_lanes = lane_numbers();
 
-// Vectors of 8 lanes are permuted by a table and stored whole: the instruction that compresses into memory takes six
-// times as long. A whole vector is written.
+// Vectors are permuted and stored whole: the instruction that compresses into memory takes six times as long. Doubles
+// are permuted by a table.
 template <class Tag>
 class Compress {
  public:
@@ -38,21 +38,22 @@ class Compress {
       const auto shifts = hn::Mul(hn::Iota(words, 0), hn::Set(words, 4));
       numbers_ = hn::And(hn::Shr(hn::Set(words, numbers_of_lanes[which]), shifts), hn::Set(words, 7));
     } else {
-      const std::uint8_t bits[8] = {static_cast<std::uint8_t>(which)};
+      const std::uint8_t bits[8] = {static_cast<std::uint8_t>(which), static_cast<std::uint8_t>(which >> 8)};
       kept_ = hn::LoadMaskBits(Tag(), bits);
     }
   }
 
-  HWY_INLINE void operator()(const hwy::HWY_NAMESPACE::Vec<Tag> v, double* to) const {
+  HWY_INLINE void operator()(const hwy::HWY_NAMESPACE::Vec<Tag> v, hwy::HWY_NAMESPACE::TFromD<Tag>* to) const {
     namespace hn = hwy::HWY_NAMESPACE;
     if constexpr (permutes)
       hn::StoreU(hn::TableLookupLanes(v, hn::IndicesFromVec(Tag(), numbers_)), Tag(), to);
     else
-      hn::CompressStore(v, kept_, Tag(), to);
+      hn::StoreU(hn::Compress(v, kept_), Tag(), to);
   }
 
  private:
-  static constexpr bool permutes = hwy::HWY_NAMESPACE::MaxLanes(Tag()) == 8;
+  static constexpr bool permutes =
+      sizeof(hwy::HWY_NAMESPACE::TFromD<Tag>) == sizeof(double) && hwy::HWY_NAMESPACE::MaxLanes(Tag()) == 8;
   hwy::HWY_NAMESPACE::Vec<hwy::HWY_NAMESPACE::RebindToUnsigned<Tag>> numbers_{};
   hwy::HWY_NAMESPACE::Mask<Tag> kept_{};
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "linalg/spectrum.h"
 #include "system/reach.h"
 
 namespace ifsm::core {
@@ -84,6 +85,8 @@ InPixels::InPixels(const System& system, const Window& window) {
     const Vector3 moved = map(middle) - middle;
     maps.push_back({map.linear(0, 0), map.linear(0, 1) * across / down, map.linear(1, 0) * down / across,
                     map.linear(1, 1), moved(0) * across, moved(1) * down});
+    slowest = std::max(slowest, spectral_radius(map.linear.topLeftCorner<2, 2>()));
+    farthest_move = std::max({farthest_move, std::abs(moved(0)) * across / half[0], moved(1) * down / half[1]});
   }
   const Vector3 point = system.point() - middle;
   points = far_points(maps, point(0) * across, point(1) * down);

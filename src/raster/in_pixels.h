@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "raster/chaos.h"
@@ -28,6 +29,11 @@ struct InPixels {
   Eight corners;
   Eight points;                // of the attractor, that lie far out there
   std::array<double, 2> half;  // of the box
+  double slowest = 0;          // the largest spectral radius of a map
+  double farthest_move = 0;    // of the middle by a map, in halves of the box
+  // How far a piece reaches from its middle, in the box.
+  double across(const Piece& p) const { return std::abs(p.a) * half[0] + std::abs(p.b) * half[1]; }
+  double down(const Piece& p) const { return std::abs(p.c) * half[0] + std::abs(p.d) * half[1]; }
   // Of coordinates of a point of a word's piece, at most, words of longest_word maps included.
   double rounding;
 

@@ -17,6 +17,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 const hn::CappedTag<std::uint8_t, 64> bytes;
 constexpr std::size_t width = hn::MaxLanes(decltype(bytes)());
 
+// 1 where a byte is `state`, else 0, or the other way round.
+void mark_tile(std::uint8_t* tile, std::uint8_t state, bool same) {
+  constexpr std::size_t side = KnownPixels::side, stride = KnownPixels::stride;
+  const auto one = hn::Set(bytes, 1), wanted = hn::Set(bytes, state), others = hn::Set(bytes, same ? 0 : 1);
+  for (std::size_t row = 0; row < side; ++row)
+    for (std::size_t k = row * stride; k < row * stride + side; k += width) {
+      const auto is_state = hn::IfThenElseZero(hn::Eq(hn::LoadU(bytes, tile + k), wanted), one);
+      hn::StoreU(hn::Xor(is_state, others), bytes, tile + k);
+    }
+}
+
 // Of a tile whose bytes are not 0 where a pixel is known, with known ones around it. Squares of side k + 1 are
 // where squares of side k begin at a pixel and at the three after it: so sides are counted up all over the tile.
 void count_tile(std::uint8_t* tile, std::uint8_t* squares) {
@@ -65,11 +76,19 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace ifsm::core {
 
+HWY_EXPORT(mark_tile);
 HWY_EXPORT(count_tile);
 
-KnownPixels::KnownPixels(const std::uint8_t* known)
-    : bytes_((side + 1) * stride, most * run_unit + most), squares_(bytes_.size()) {
-  for (std::size_t row = 0; row < side; ++row) std::copy_n(known + row * side, side, bytes_.data() + row * stride);
+void KnownPixels::begin(const std::uint8_t* states, std::int64_t stride, std::int64_t width, std::int64_t height,
+                        std::uint8_t state, bool same) {
+  const auto known = static_cast<std::uint8_t>(same ? state : state + 1);
+  bytes_.fill(most * run_unit + most);
+  for (std::size_t row = 0; row < side; ++row) {
+    std::uint8_t* const to = std::fill_n(bytes_.data() + row * KnownPixels::stride, side, known) - side;
+    if (const auto of_states = static_cast<std::int64_t>(row); of_states < height)
+      std::copy_n(states + of_states * stride, width, to);
+  }
+  HWY_DYNAMIC_DISPATCH(mark_tile)(bytes_.data(), state, same);
   count();
 }
 

@@ -1,9 +1,9 @@
 // What is known already of a square of pixels, so that pieces that lie in known pixels need not be looked into.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 namespace ifsm::core {
 
@@ -17,8 +17,9 @@ class KnownPixels {
   static constexpr std::size_t stride = side + 64;  // vectors read the pixel to the right of their last
   static constexpr int most = 15, run_unit = 16;
 
-  // known: side · side bytes, row by row, each 1 or 0.
-  explicit KnownPixels(const std::uint8_t* known);
+  // Of a square of `width` by `height` states, `stride` from row to row, pixels of that state are known, or all others.
+  void begin(const std::uint8_t* states, std::int64_t stride, std::int64_t width, std::int64_t height,
+             std::uint8_t state, bool same);
 
   // Makes it known.
   void add(std::size_t column, std::size_t row);
@@ -30,8 +31,8 @@ class KnownPixels {
   void renew(std::size_t column, std::size_t row);
   void count();
 
-  std::vector<std::uint8_t> bytes_;
-  std::vector<std::uint8_t> squares_;
+  using Bytes = std::array<std::uint8_t, (side + 1) * stride>;
+  alignas(64) Bytes bytes_, squares_;
   int added_ = 0;  // since all were counted
 };
 

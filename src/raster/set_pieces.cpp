@@ -9,9 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "base/error.h"
@@ -25,36 +28,40 @@ namespace ifsm::core {
 // Pieces that go through a map together, on every machine; a whole number of vectors.
 constexpr std::size_t pieces_per_block = 32;
 
-// Pieces' numbers a … f, and the lengths of their words, each in an array of its own.
+// Pieces' numbers a … f, and how far off their places may be, each in an array of its own.
 constexpr std::size_t piece_numbers = 7;
+template <class Real>
 struct PieceBlock {
-  alignas(64) std::array<std::array<double, pieces_per_block>, piece_numbers> of;
+  alignas(64) std::array<std::array<Real, pieces_per_block>, piece_numbers> of;
   std::size_t size;
 };
 
+template <class Real>
 class PieceStack {
  public:
   std::size_t size() const { return size_; }
-  void push(const Piece& p) {
+  void push(const Piece& p, double rounding) {
     make_room(1);
-    const std::array<double, piece_numbers> numbers{p.a, p.b, p.c, p.d, p.e, p.f, 0};
-    for (std::size_t k = 0; k < piece_numbers; ++k) at(k)[0] = numbers[k];
+    const std::array<double, piece_numbers> numbers{p.a, p.b, p.c, p.d, p.e, p.f, rounding};
+    for (std::size_t k = 0; k < piece_numbers; ++k) at(k)[0] = static_cast<Real>(numbers[k]);
     grow(1);
   }
-  void pop(PieceBlock& block) {
+  void pop(PieceBlock<Real>& block) {
+    make_room(0);  // whole blocks are copied
     block.size = std::min(size_, pieces_per_block);
     size_ -= block.size;
-    for (std::size_t k = 0; k < piece_numbers; ++k) std::copy_n(at(k), block.size, block.of[k].begin());
+    for (std::size_t k = 0; k < piece_numbers; ++k) std::copy_n(at(k), pieces_per_block, block.of[k].begin());
   }
-  // Where the next piece's number is to be written.
-  double* at(std::size_t number) { return numbers_.data() + number * room_ + size_; }
+  // Where the next piece's number is to be written; from one number to the next.
+  Real* at(std::size_t number) { return numbers_.data() + number * room_ + size_; }
+  std::size_t stride() const { return room_; }
   void grow(std::size_t pieces) { size_ += pieces; }
   // For so many, and for what vectors write beyond.
   void make_room(std::size_t pieces) {
     const std::size_t needed = size_ + pieces + pieces_per_block;
     if (needed <= room_) return;
     const std::size_t room = 2 * needed;
-    std::vector<double> numbers(piece_numbers * room);
+    std::vector<Real> numbers(piece_numbers * room);
     for (std::size_t k = 0; k < piece_numbers; ++k)
       std::copy_n(numbers_.data() + k * room_, size_, numbers.data() + k * room);
     numbers_.swap(numbers);
@@ -62,7 +69,7 @@ class PieceStack {
   }
 
  private:
-  std::vector<double> numbers_;
+  std::vector<Real> numbers_;
   std::size_t size_ = 0, room_ = 0;
 };
 
@@ -71,6 +78,37 @@ struct Told {
   std::int32_t first_column, end_column, first_row, end_row;
   Meets state;
 };
+
+// What numbers of one type can follow.
+struct Precision {
+  // How far off the place of a piece may be, in pixels: at first, more with each map, and at most.
+  double at_first, of_a_map, at_most;
+  double farthest;  // how far the piece may reach from its middle, in its box
+};
+
+inline Precision doubles(const InPixels& attractor) {
+  const double of_a_map = attractor.rounding / InPixels::longest_word;
+  return {of_a_map, of_a_map, attractor.rounding, std::numeric_limits<double>::infinity()};
+}
+
+// Twice as many go into a vector, and pieces about as large as the tile or smaller do with them. Such a piece, which
+// reaches up to B = 64 pixels, lies within 4 B of the tile's corner. In units of 2^-24 pixels, a map's rounding is at
+// most 2 B of the products with its move (times that in halves of the box), 4 B of the place, and what M carries on:
+// 2^1.5 B j s^j after j maps that shrink by s, less than 7 B for s = .85, and on the average over 128 maps, which may
+// shrink as little as s = .94, less than 9 B. So 16 B are enough for each map; two such are for what a box rounds.
+inline Precision floats(const InPixels& attractor, double tolerance) {
+  constexpr double farthest = KnownPixels::side / 2., rounding = 0x1p-24 * 16 * farthest;
+  const double of_a_map = rounding * std::max(1.0, attractor.farthest_move);
+  return {attractor.rounding + 2 * of_a_map, of_a_map, tolerance / 4, farthest};
+}
+
+// Do they, if all words are about as long as those of the slowest map?
+inline bool floats_suffice(const Precision& floats, const InPixels& attractor, double smallest) {
+  if (attractor.slowest <= 0) return true;
+  constexpr double most_maps = 128;
+  const double maps = std::log(floats.farthest / smallest) / -std::log(attractor.slowest);
+  return maps >= 0 && maps <= most_maps && floats.at_first + maps * floats.of_a_map <= floats.at_most;
+}
 
 }  // namespace ifsm::core
 #endif
@@ -81,76 +119,32 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-const hn::CappedTag<double, 8> reals;
-const hn::RebindToUnsigned<decltype(reals)> words;
-const hn::Rebind<std::int32_t, decltype(reals)> integers;
-using Reals = hn::Vec<decltype(reals)>;
-using Integers = hn::Vec<decltype(integers)>;
-using Eighths = hn::Vec<decltype(words)>;
-constexpr std::size_t width = hn::MaxLanes(decltype(reals)());
-
-HWY_INLINE Reals set(double value) { return hn::Set(reals, value); }
-HWY_INLINE Integers set(std::int32_t value) { return hn::Set(integers, value); }
-
 template <class Tag, class Mask>
 HWY_INLINE std::uint32_t bits_of(const Tag tag, const Mask mask) {
   std::uint8_t bits[8] = {};
   hn::StoreMaskBits(tag, mask, bits);
-  return bits[0];
+  return bits[0] | static_cast<std::uint32_t>(bits[1]) << 8;
 }
 
-struct Pieces {
-  Reals a, b, c, d, e, f, length;
-};
-
-// From here to there, along one axis.
-struct Extent {
-  Reals from, to;
-};
-
-// Of the direction (a, b), lane by lane: see Eight.
-HWY_INLINE Eighths eighth_of(const Reals a, const Reals b) {
-  const auto sign = [](const Reals v) { return hn::ShiftRight<63>(hn::BitCast(words, v)); };
-  const auto steep = hn::RebindMask(words, hn::Gt(hn::Abs(b), hn::Abs(a)));
-  return hn::Or(hn::Or(sign(a), hn::ShiftLeft<1>(sign(b))), hn::IfThenElseZero(steep, hn::Set(words, 4)));
-}
-
-// Points by eighth. In two registers where those hold eight numbers, else in memory.
-class EightPoints {
- public:
-  // Those of the directions themselves, or of the opposite ones.
-  EightPoints(const Eight& points, bool opposite) : memory_(points) {
-    constexpr std::size_t both_signs = 3;
-    for (std::size_t k = 0; k < 8 && opposite; ++k)
-      memory_.x[k] = points.x[k ^ both_signs], memory_.y[k] = points.y[k ^ both_signs];
-  }
-
-  // The point's product with (a, b).
-  HWY_INLINE Reals along(const Eighths eighth, const Reals a, const Reals b) const {
-    return hn::Add(hn::Mul(a, at(memory_.x, eighth)), hn::Mul(b, at(memory_.y, eighth)));
-  }
-
- private:
-  HWY_INLINE static Reals at(const std::array<double, 8>& numbers, const Eighths eighth) {
-    if constexpr (width == 8)
-      return hn::TableLookupLanes(hn::Load(reals, numbers.data()), hn::IndicesFromVec(reals, eighth));
-    const hn::RebindToSigned<decltype(reals)> indices;
-    return hn::GatherIndex(reals, numbers.data(), hn::BitCast(indices, eighth));
-  }
-
-  Eight memory_;
-};
-
-// Where pieces lie, rounding included, and the eighths of the directions in which they reach far.
-struct Place {
-  Eighths across, down;
-  Extent x, y;
-};
-
+// Vectors of 64 bytes, or as long as there are; pieces in doubles or in floats.
+template <class Real>
 class Search {
+  static constexpr hn::CappedTag<Real, 64 / sizeof(Real)> reals{};
+  static constexpr hn::RebindToUnsigned<decltype(reals)> words{};
+  static constexpr hn::Rebind<std::int32_t, decltype(reals)> integers{};
+  using Tag = std::remove_const_t<decltype(reals)>;
+  using Reals = hn::Vec<Tag>;
+  using Words = hn::Vec<std::remove_const_t<decltype(words)>>;
+  using Integers = hn::Vec<std::remove_const_t<decltype(integers)>>;
+  using Masks = hn::Mask<Tag>;
+  using IntegerMasks = hn::Mask<std::remove_const_t<decltype(integers)>>;
+  static constexpr std::size_t width = hn::MaxLanes(Tag());
+  static constexpr std::uint32_t all_lanes = (1U << width) - 1;
+
  public:
-  Search(const InPixels& attractor, double tolerance, const Tile& tile, const Watch& watch)
+  Search(const InPixels& attractor, double tolerance, const Precision& precision, const Tile& tile, const Watch& watch)
       : attractor_(attractor),
+        precision_(precision),
         tolerance_(tolerance),
         smallest_(tolerance),
         tile_(tile),
@@ -159,76 +153,175 @@ class Search {
         opposite_corners_(attractor.corners, true),
         points_(attractor.points, false),
         opposite_points_(attractor.points, true),
-        known_(known_where(tile, [](Meets state) { return state == Meets::yes; }).data()) {}
+        of_a_map_(static_cast<Real>(precision.of_a_map)) {
+    const auto real = [](double number) { return static_cast<Real>(number); };
+    for (const Piece& m : attractor.maps)
+      maps_.push_back({real(m.a), real(m.b), real(m.c), real(m.d), real(m.e), real(m.f)});
+  }
 
   // What comes near a pixel's edge may have left it undecided before a point inside was seen. Such pixels are looked at
-  // again, in pieces that are larger: of those that have a point inside, nearly all are found.
-  void run() {
-    follow();
-    if (!doubts_) return;
-    const auto known = known_where(tile_, [](Meets state) { return state != Meets::undecided; });
-    known_ = KnownPixels(known.data());
+  // again, in pieces that are larger: of those that have a point inside, nearly all are found. False: rounding stood in
+  // the way; what is in the tile is true.
+  bool run() {
+    begin(Meets::yes, true);
+    if (!descend()) return false;
+    if (!doubts_) return true;
+    begin(Meets::undecided, false);
     constexpr double larger = .25;
     smallest_ = std::max(larger, tolerance_);
     again_ = true;
-    follow();
+    return descend();
   }
 
  private:
-  // Depth first, in blocks.
-  void follow() {
+  static Reals set(double value) { return hn::Set(reals, static_cast<Real>(value)); }
+  static Integers set(std::int32_t value) { return hn::Set(integers, value); }
+
+  struct Map {
+    Real a, b, c, d, e, f;
+  };
+  struct Pieces {
+    Reals a, b, c, d, e, f, rounding;
+  };
+
+  // From here to there, along one axis.
+  struct Extent {
+    Reals from, to;
+  };
+
+  // Of the direction (a, b), lane by lane: see Eight.
+  HWY_INLINE static Words eighth_of(const Reals a, const Reals b) {
+    constexpr int sign_bit = 8 * sizeof(Real) - 1;
+    const auto sign = [](const Reals v) { return hn::ShiftRight<sign_bit>(hn::BitCast(words, v)); };
+    const auto steep = hn::RebindMask(words, hn::Gt(hn::Abs(b), hn::Abs(a)));
+    return hn::Or(hn::Or(sign(a), hn::ShiftLeft<1>(sign(b))), hn::IfThenElseZero(steep, hn::Set(words, 4)));
+  }
+
+  // Points by eighth. In registers where those hold eight numbers, else in memory.
+  class EightPoints {
+   public:
+    // Those of the directions themselves, or of the opposite ones.
+    EightPoints(const Eight& points, bool opposite) {
+      const std::size_t signs = opposite ? 3 : 0;
+      for (std::size_t k = 0; k < x_.size(); ++k) {
+        x_[k] = static_cast<Real>(points.x[k % 8 ^ signs]);
+        y_[k] = static_cast<Real>(points.y[k % 8 ^ signs]);
+      }
+    }
+
+    // The point's product with (a, b).
+    HWY_INLINE Reals along(const Words eighth, const Reals a, const Reals b) const {
+      return hn::Add(hn::Mul(a, at(x_, eighth)), hn::Mul(b, at(y_, eighth)));
+    }
+
+   private:
+    using Numbers = std::array<Real, 64 / sizeof(Real)>;
+    HWY_INLINE static Reals at(const Numbers& numbers, const Words eighth) {
+      if constexpr (width >= 8)
+        return hn::TableLookupLanes(hn::Load(reals, numbers.data()), hn::IndicesFromVec(reals, eighth));
+      const hn::RebindToSigned<Tag> indices;
+      return hn::GatherIndex(reals, numbers.data(), hn::BitCast(indices, eighth));
+    }
+
+    alignas(64) Numbers x_, y_;
+  };
+
+  // Where pieces lie, rounding included, and the eighths of the directions in which they reach far.
+  struct Place {
+    Words across, down;
+    Extent x, y;
+  };
+
+  // Pixels of that state are known, or all others.
+  void begin(Meets state, bool same) {
+    known_.begin(reinterpret_cast<const std::uint8_t*>(tile_.first), tile_.stride, tile_.width, tile_.height,
+                 static_cast<std::uint8_t>(state), same);
+  }
+
+  // One by one, in doubles, while pieces are large.
+  struct Large {
+    Piece piece;
+    int length;  // of its word
+  };
+  bool descend() {
     Piece whole = attractor_.whole;
     whole.e -= static_cast<double>(tile_.left), whole.f -= static_cast<double>(tile_.top);
-    open_.push(whole);
+    std::vector<Large> large{{whole, 0}};
+    while (!large.empty()) {
+      const auto [p, length] = large.back();
+      large.pop_back();
+      const double rounding = precision_.at_first;
+      const double across = attractor_.across(p) + rounding, down = attractor_.down(p) + rounding;
+      if (p.e + across < 0 || p.e - across >= side || p.f + down < 0 || p.f - down >= side) continue;
+      if (std::max(across, down) <= precision_.farthest / 2) {
+        open_.push(p, rounding);
+        if (open_.size() >= pieces_per_block && !follow()) return false;
+        continue;
+      }
+      poll();
+      if (length == InPixels::longest_word) return false;
+      for (const Piece& map : attractor_.maps) large.push_back({p * map, length + 1});
+    }
+    return follow();
+  }
+
+  // Depth first, in blocks.
+  bool follow() {
     while (open_.size() != 0) {
-      constexpr std::int64_t between = 1 << 8;
-      if (++blocks_ % between == 0) watch_.poll();
+      poll();
       open_.pop(block_);
-      check_lengths();
+      if (!block_is_exact()) return false;
       for (std::size_t k = 0; k < block_.size; k += width) look_up_points(piece(k), block_.size - k);
       take_notes();
-      for (const Piece& map : attractor_.maps) {
+      for (const Map& map : maps_) {
         open_.make_room(pieces_per_block);
         for (std::size_t k = 0; k < block_.size; k += width) look_at(child(map, piece(k)), block_.size - k);
       }
       take_notes();
     }
+    return true;
   }
 
   // From the first pixels to those after the last, of the tile's; none where a piece misses it.
   struct Box {
     Integers c0, c1, r0, r1;
   };
+  HWY_INLINE static Integers whole_part(const Reals v) {
+    if constexpr (sizeof(Real) == sizeof(double)) {
+      return hn::DemoteTo(integers, v);
+    } else {
+      // From its digits: those of 256 + v count in 2^-15.
+      const Integers digits = hn::BitCast(integers, hn::Add(v, set(256.0)));
+      return hn::Sub(hn::ShiftRight<15>(digits), set(0x43800000 >> 15));
+    }
+  }
   HWY_INLINE static Box box_of(const Place& at) {
     const auto pixel = [](const Reals coordinate) {
-      return hn::DemoteTo(integers, hn::Min(hn::Max(coordinate, set(0.0)), set(side)));
+      return whole_part(hn::Min(hn::Max(coordinate, set(0.0)), set(side)));
     };
     const Reals one = set(1.0);
     return {pixel(at.x.from), pixel(hn::Add(at.x.to, one)), pixel(at.y.from), pixel(hn::Add(at.y.to, one))};
   }
 
-  // And all that lies beyond the window.
-  template <class Is>
-  static std::vector<std::uint8_t> known_where(const Tile& tile, const Is& is) {
-    constexpr std::size_t side = KnownPixels::side;
-    std::vector<std::uint8_t> known(side * side, 1);
-    for (std::int64_t row = 0; row < tile.height; ++row)
-      for (std::int64_t column = 0; column < tile.width; ++column)
-        known[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column)] =
-            is(tile.first[row * tile.stride + column]) ? 1 : 0;
-    return known;
+  void poll() {
+    constexpr std::int64_t between = 1 << 8;
+    if (++polls_ % between == 0) watch_.poll();
   }
 
-  void check_lengths() const {
-    auto most = hn::Zero(reals);
-    for (std::size_t k = 0; k < pieces_per_block; k += width)
-      most = hn::Max(most, hn::Load(reals, &block_.of[piece_numbers - 1][k]));
-    if (hn::AllTrue(reals, hn::Lt(most, set(double{InPixels::longest_word})))) return;
-    throw Error(Status::limit, "tolerance",
-                "Pieces of words of " + std::to_string(InPixels::longest_word) +
-                    " maps are still larger than the tolerance: the maps shrink too slowly for " +
-                    "proofs; give a larger tolerance, up to 1, larger pixels, or count points instead.")
-        .with(tolerance_);
+  // Are all of the block where they are said to be, and of a size that the numbers can follow?
+  bool block_is_exact() const {
+    const Reals half_x = set(attractor_.half[0]), half_y = set(attractor_.half[1]);
+    auto off = hn::Zero(reals), reach = hn::Zero(reals);
+    for (std::size_t k = 0; k < block_.size; k += width) {
+      const Pieces p = piece(k);
+      const auto half = [&](const Reals a, const Reals b) {
+        return hn::Add(hn::Mul(hn::Abs(a), half_x), hn::Mul(hn::Abs(b), half_y));
+      };
+      const auto counts = hn::FirstN(reals, block_.size - k);
+      off = hn::Max(off, hn::IfThenElseZero(counts, p.rounding));
+      reach = hn::Max(reach, hn::IfThenElseZero(counts, hn::Max(half(p.a, p.b), half(p.c, p.d))));
+    }
+    return hn::AllTrue(reals, hn::And(hn::Le(off, set(precision_.at_most)), hn::Le(reach, set(precision_.farthest))));
   }
 
   // Of the block, from k on.
@@ -236,9 +329,9 @@ class Search {
     const auto numbers = [&](std::size_t number) { return hn::Load(reals, &block_.of[number][k]); };
     return {numbers(0), numbers(1), numbers(2), numbers(3), numbers(4), numbers(5), numbers(6)};
   }
-  HWY_INLINE static Pieces child(const Piece& m, const Pieces& p) {
-    const auto product = [](const Reals a, double c, const Reals b, double d) {
-      return hn::Add(hn::Mul(a, set(c)), hn::Mul(b, set(d)));
+  HWY_INLINE Pieces child(const Map& m, const Pieces& p) const {
+    const auto product = [](const Reals a, Real c, const Reals b, Real d) {
+      return hn::Add(hn::Mul(a, hn::Set(reals, c)), hn::Mul(b, hn::Set(reals, d)));
     };
     return {product(p.a, m.a, p.b, m.c),
             product(p.a, m.b, p.b, m.d),
@@ -246,15 +339,15 @@ class Search {
             product(p.c, m.b, p.d, m.d),
             hn::Add(product(p.a, m.e, p.b, m.f), p.e),
             hn::Add(product(p.c, m.e, p.d, m.f), p.f),
-            hn::Add(p.length, set(1.0))};
+            hn::Add(p.rounding, hn::Set(reals, of_a_map_))};
   }
   HWY_INLINE Place place(const Pieces& p) const {
-    const Eighths across = eighth_of(p.a, p.b), down = eighth_of(p.c, p.d);
-    return {across, down, extent(p.e, opposite_corners_.along(across, p.a, p.b), corners_.along(across, p.a, p.b)),
-            extent(p.f, opposite_corners_.along(down, p.c, p.d), corners_.along(down, p.c, p.d))};
+    const Words across = eighth_of(p.a, p.b), down = eighth_of(p.c, p.d);
+    const auto x_from = opposite_corners_.along(across, p.a, p.b), x_to = corners_.along(across, p.a, p.b);
+    const auto y_from = opposite_corners_.along(down, p.c, p.d), y_to = corners_.along(down, p.c, p.d);
+    return {across, down, extent(p.e, x_from, x_to, p.rounding), extent(p.f, y_from, y_to, p.rounding)};
   }
-  HWY_INLINE Extent extent(const Reals middle, const Reals from, const Reals to) const {
-    const Reals rounding = set(attractor_.rounding);
+  HWY_INLINE static Extent extent(const Reals middle, const Reals from, const Reals to, const Reals rounding) {
     return {hn::Sub(hn::Add(middle, from), rounding), hn::Add(hn::Add(middle, to), rounding)};
   }
 
@@ -279,7 +372,8 @@ class Search {
     const std::uint32_t met = one & bits_of(reals, within(at.x, at.y));
     tell(met, box, Meets::yes);
     small &= ~met;
-    look_up_points(p, at, small);
+    look_up_both(at.across, p, small);
+    look_up_both(at.down, p, small);
     if (!again_) tell(small, box, Meets::undecided);
     return open & ~(met | small);
   }
@@ -287,28 +381,28 @@ class Search {
     return hn::Max(hn::Sub(at.x.to, at.x.from), hn::Sub(at.y.to, at.y.from));
   }
 
-  // Points of the pieces, which may lie in pixels that are not known to be met.
+  // Points of the pieces, which may lie in pixels that are not known to be met. Two of each: of more, the time they
+  // take is more than what they save.
   HWY_INLINE void look_up_points(const Pieces& p, std::size_t count) {
     const Place at = place(p);
     constexpr double few = 4;  // pixels: points of larger pieces tell little
-    look_up_points(p, at, bits_of(reals, hn::And(hn::FirstN(reals, count), hn::Lt(size(at), set(few)))));
+    look_up_both(at.across, p, bits_of(reals, hn::And(hn::FirstN(reals, count), hn::Lt(size(at), set(few)))));
   }
-  HWY_INLINE void look_up_points(const Pieces& p, const Place& at, std::uint32_t which) {
+  HWY_INLINE void look_up_both(const Words eighth, const Pieces& p, std::uint32_t which) {
     if (which == 0) return;
-    look_up(points_, at.across, p, which);
-    look_up(opposite_points_, at.across, p, which);
-    look_up(points_, at.down, p, which);
-    look_up(opposite_points_, at.down, p, which);
+    look_up(points_, eighth, p, which);
+    look_up(opposite_points_, eighth, p, which);
   }
 
-  HWY_INLINE static hn::Mask<decltype(reals)> within(const Extent& x, const Extent& y) {
+  HWY_INLINE static Masks within(const Extent& x, const Extent& y) {
     return hn::And(hn::And(hn::Ge(x.from, set(0.0)), hn::Lt(x.to, set(side))),
                    hn::And(hn::Ge(y.from, set(0.0)), hn::Lt(y.to, set(side))));
   }
 
-  HWY_INLINE void look_up(const EightPoints& points, const Eighths eighth, const Pieces& p, std::uint32_t which) {
+  HWY_INLINE void look_up(const EightPoints& points, const Words eighth, const Pieces& p, std::uint32_t which) {
     const Reals along_x = points.along(eighth, p.a, p.b), along_y = points.along(eighth, p.c, p.d);
-    const Place at{eighth, eighth, extent(p.e, along_x, along_x), extent(p.f, along_y, along_y)};
+    const Place at{eighth, eighth, extent(p.e, along_x, along_x, p.rounding),
+                   extent(p.f, along_y, along_y, p.rounding)};
     const Box box = box_of(at);
     const auto certain = hn::Eq(hn::Max(hn::Sub(box.c1, box.c0), hn::Sub(box.r1, box.r0)), set(1));
     const auto unknown = hn::Eq(hn::And(read(box), set(0xFF)), set(0));
@@ -322,9 +416,8 @@ class Search {
     return hn::GatherOffset(integers, reinterpret_cast<const std::int32_t*>(known_.bytes()), at);
   }
   // Is one of the pixels not known? Where there are none, anything.
-  HWY_INLINE hn::Mask<decltype(integers)> hold_unknown(const Box& box, const Integers columns,
-                                                       const Integers rows) const {
-    const hn::RebindToUnsigned<decltype(integers)> counts;
+  HWY_INLINE IntegerMasks hold_unknown(const Box& box, const Integers columns, const Integers rows) const {
+    const hn::RebindToUnsigned<std::remove_const_t<decltype(integers)>> counts;
     const Integers read = this->read(box);
     const auto larger = hn::Gt(hn::Max(columns, rows), hn::And(read, set(KnownPixels::most)));  // than what is known
     // Four columns' runs at once: where one is shorter than the box, of at most 128 rows, the bit above it is lost.
@@ -343,9 +436,11 @@ class Search {
   }
 
   HWY_INLINE void leave_open(const Pieces& p, std::uint32_t which) {
-    const Compress<decltype(reals)> compress(which);
-    const auto put = [&](std::size_t number, const Reals v) { compress(v, open_.at(number)); };
-    put(0, p.a), put(1, p.b), put(2, p.c), put(3, p.d), put(4, p.e), put(5, p.f), put(6, p.length);
+    const Compress<Tag> compress(which);
+    Real* const to = open_.at(0);
+    const std::size_t stride = open_.stride();
+    const auto put = [&](std::size_t number, const Reals v) { compress(v, to + number * stride); };
+    put(0, p.a), put(1, p.b), put(2, p.c), put(3, p.d), put(4, p.e), put(5, p.f), put(6, p.rounding);
     open_.grow(static_cast<std::size_t>(std::popcount(which)));
   }
 
@@ -380,22 +475,32 @@ class Search {
   }
 
   static constexpr double side = KnownPixels::side;
-  static constexpr std::uint32_t all_lanes = (1U << width) - 1;
   const InPixels& attractor_;
+  const Precision& precision_;
   double tolerance_, smallest_;  // pieces of that size are not looked into
   bool doubts_ = false, again_ = false;
   Tile tile_;
   const Watch& watch_;
   EightPoints corners_, opposite_corners_, points_, opposite_points_;
+  std::vector<Map> maps_;
+  Real of_a_map_;
   KnownPixels known_;
-  PieceStack open_;
-  PieceBlock block_{};
+  PieceStack<Real> open_;
+  PieceBlock<Real> block_{};
   std::vector<Told> told_;
-  std::int64_t blocks_ = 0;
+  std::int64_t polls_ = 0;
 };
 
 void search(const InPixels& attractor, double tolerance, const Tile& tile, const Watch& watch) {
-  Search(attractor, tolerance, tile, watch).run();
+  const Precision fast = floats(attractor, tolerance), exact = doubles(attractor);
+  if (floats_suffice(fast, attractor, tolerance) && Search<float>(attractor, tolerance, fast, tile, watch).run())
+    return;
+  if (Search<double>(attractor, tolerance, exact, tile, watch).run()) return;
+  throw Error(Status::limit, "tolerance",
+              "Pieces of words of " + std::to_string(InPixels::longest_word) +
+                  " maps are still larger than the tolerance: the maps shrink too slowly for " +
+                  "proofs; give a larger tolerance, up to 1, larger pixels, or count points instead.")
+      .with(tolerance);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <memory>
 #include <vector>
 
 #include "raster/set_points.h"
@@ -21,20 +22,53 @@
 #define IFSM_RASTER_SET_POINTS_ONCE
 namespace ifsm::core {
 
-// Points, from the box's middle.
-struct Points {
-  std::vector<double> x, y;
-  std::size_t size = 0;
+// Points that go through a map together, on every machine; a whole number of vectors.
+constexpr std::size_t block = 32;
 
-  void make_room(std::size_t more) {
-    if (x.size() >= size + more) return;
-    x.resize(2 * (size + more));
-    y.resize(2 * (size + more));
+// Points, from the box's middle; the last come first. In chunks, so that none is moved when there are more.
+class Points {
+ public:
+  static constexpr std::size_t room = 4 * block;
+  struct Chunk {
+    static constexpr std::size_t most = 4096;
+    std::array<double, most + block> x, y;  // vectors write beyond
+    std::size_t size = 0;
+  };
+
+  Points() { grow(); }
+
+  bool empty() const { return used_ == 1 && chunks_[0]->size == 0; }
+  bool has_block() const { return used_ > 1 || chunks_[0]->size >= block; }
+
+  // With room for so many.
+  Chunk& top() {
+    if (chunks_[used_ - 1]->size + room > Chunk::most) grow();
+    return *chunks_[used_ - 1];
   }
+
+  // Up to a block of them; the numbers after these are anything.
+  std::size_t pop(double* x, double* y) {
+    if (chunks_[used_ - 1]->size == 0 && used_ > 1) --used_;
+    Chunk& chunk = *chunks_[used_ - 1];
+    const std::size_t count = std::min(block, chunk.size);
+    chunk.size -= count;
+    std::copy_n(&chunk.x[chunk.size], block, x);
+    std::copy_n(&chunk.y[chunk.size], block, y);
+    return count;
+  }
+
+ private:
+  void grow() {
+    if (used_ == chunks_.size()) chunks_.push_back(std::make_unique_for_overwrite<Chunk>());
+    chunks_[used_++]->size = 0;
+  }
+
+  std::vector<std::unique_ptr<Chunk>> chunks_;  // what was needed once is kept
+  std::size_t used_ = 0;
 };
 
 // What is followed next: points that were the first in their pixel, and those that were only the first in its half.
-struct Front {
+struct Open {
   Points pixels, halves;
 };
 
@@ -42,8 +76,9 @@ constexpr int pixel_bits = 30;  // of the largest windows
 
 // Points that came to pixels, or halves of them, not met when they were looked up; those of one pixel may be several.
 struct Found {
-  alignas(64) std::array<double, 64> x, y;
-  alignas(64) std::array<std::int32_t, 64> pixel_and_half;
+  static constexpr std::size_t most = Points::room;
+  alignas(64) std::array<double, most + block> x, y;  // vectors write beyond
+  alignas(64) std::array<std::int32_t, most + block> pixel_and_half;
   std::size_t size = 0;
 };
 
@@ -61,8 +96,6 @@ const hn::Rebind<std::int32_t, decltype(reals)> integers;
 using Reals = hn::Vec<decltype(reals)>;
 using Integers = hn::Vec<decltype(integers)>;
 constexpr std::size_t width = hn::MaxLanes(decltype(reals)());
-// Points that go through a map together, on every machine; a whole number of vectors.
-constexpr std::size_t block = 32;
 
 class Follower {
  public:
@@ -81,37 +114,42 @@ class Follower {
   const std::vector<Piece>& maps() const { return attractor_.maps; }
   const std::vector<Piece>& slow_maps() const { return slow_; }
 
-  // Of one block, to the next front.
-  void follow(const Points& points, std::size_t first, const std::vector<Piece>& maps, Front& next) {
-    const std::size_t count = std::min(block, points.size - first);
+  // A block of the points; what they find is open.
+  void follow(Points& points, const std::vector<Piece>& maps, Open& open) {
+    alignas(64) std::array<double, block> x, y;
+    const std::size_t count = points.pop(x.data(), y.data());
+    // Some maps' images are looked up before the first is taken: what was written a moment ago is slow to read.
+    Found found;
     for (const Piece& map : maps) {
-      Found found;
+      if (found.size > Found::most - block) take(found, open);
       for (std::size_t k = 0; k < count; k += width)
-        look_up(map, hn::LoadU(reals, &points.x[first + k]), hn::LoadU(reals, &points.y[first + k]), count - k, found);
-      take(found, next);
+        look_up(map, hn::Load(reals, &x[k]), hn::Load(reals, &y[k]), count - k, found);
     }
+    take(found, open);
   }
 
  private:
   // Written to both, and counted where it belongs: which it is nobody can foresee.
-  void take(const Found& found, Front& next) {
-    next.pixels.make_room(block);
-    next.halves.make_room(block);
-    double *const x = next.pixels.x.data(), *const y = next.pixels.y.data();
-    double *const half_x = next.halves.x.data(), *const half_y = next.halves.y.data();
-    std::size_t pixels = next.pixels.size, halves = next.halves.size;
+  void take(Found& found, Open& open) {
+    Points::Chunk &all = open.pixels.top(), &rest = open.halves.top();
+    double *const x = all.x.data(), *const y = all.y.data();
+    double *const half_x = rest.x.data(), *const half_y = rest.y.data();
+    std::size_t pixels = all.size, halves = rest.size;
+    std::uint8_t* const states = met_;
     for (std::size_t k = 0; k < found.size; ++k) {
-      const auto both = static_cast<std::uint32_t>(found.pixel_and_half[k]);
-      std::uint8_t& met = met_[both % (1U << pixel_bits)];
-      const auto before = met, half = static_cast<std::uint8_t>(both >> pixel_bits);
-      met = before | half;
+      const auto both = static_cast<std::uint32_t>(found.pixel_and_half[k]), half = both >> pixel_bits;
+      std::uint8_t& met = states[both % (1U << pixel_bits)];
+      const std::uint32_t before = met;
+      met = static_cast<std::uint8_t>(before | half);
       x[pixels] = half_x[halves] = found.x[k];
       y[pixels] = half_y[halves] = found.y[k];
-      pixels += before == 0 ? 1 : 0;
-      halves += before != 0 && (before & half) == 0 ? 1 : 0;
+      const std::size_t is_first = before == 0 ? 1 : 0, is_known = (before & half) != 0 ? 1 : 0;
+      pixels += is_first;
+      halves += 1 - (is_first | is_known);
     }
-    next.pixels.size = pixels;
-    next.halves.size = halves;
+    all.size = pixels;
+    rest.size = halves;
+    found.size = 0;
   }
 
   HWY_INLINE void look_up(const Piece& m, const Reals x, const Reals y, std::size_t count, Found& found) const {
@@ -142,8 +180,9 @@ class Follower {
     const Compress<decltype(reals)> compress(bits[0]);
     compress(next_x, &found.x[found.size]);
     compress(next_y, &found.y[found.size]);
-    hn::CompressStore(hn::Or(pixel, hn::ShiftLeft<pixel_bits>(half)), hn::LoadMaskBits(integers, bits), integers,
-                      &found.pixel_and_half[found.size]);
+    const Integers pixel_and_half = hn::Or(pixel, hn::ShiftLeft<pixel_bits>(half));
+    hn::StoreU(hn::Compress(pixel_and_half, hn::LoadMaskBits(integers, bits)), integers,
+               &found.pixel_and_half[found.size]);
     found.size += static_cast<std::size_t>(std::popcount(bits[0]));
   }
 
@@ -157,26 +196,32 @@ class Follower {
 
 void follow(const InPixels& attractor, const Window& window, std::uint8_t* met, const Watch& watch) {
   Follower follower(attractor, window, met);
-  Front front, next;
-  Points& start = front.pixels;
-  start.make_room(block);
+  Open open;
+  Points::Chunk& start = open.pixels.top();
   start.size = attractor.points.x.size();
   std::copy_n(attractor.points.x.begin(), start.size, start.x.begin());
   std::copy_n(attractor.points.y.begin(), start.size, start.y.begin());
-  const auto follow_all = [&](Points& points, const std::vector<Piece>& maps) {
-    points.make_room(block);  // vectors are read whole
-    for (std::size_t first = 0; first < points.size; first += block) {
-      constexpr std::size_t blocks_between = 1 << 8;
-      if (first / block % blocks_between == 0) watch.poll();
-      follower.follow(points, first, maps, next);
-    }
-    points.size = 0;
-  };
-  for (int length = 0; front.pixels.size + front.halves.size != 0 && length < InPixels::longest_word; ++length) {
-    follow_all(front.pixels, follower.maps());
-    follow_all(front.halves, follower.slow_maps());
-    std::swap(front, next);
+  constexpr int blocks_between = 1 << 8;
+  for (int blocks = 0; !open.pixels.empty() || !open.halves.empty(); ++blocks) {
+    if (blocks % blocks_between == 0) watch.poll();
+    if (open.halves.has_block() || open.pixels.empty())
+      follower.follow(open.halves, follower.slow_maps(), open);
+    else
+      follower.follow(open.pixels, follower.maps(), open);
   }
+}
+
+// The states of pixels in which halves were met.
+void tell(std::uint8_t* met, std::size_t pixels) {
+  const hn::CappedTag<std::uint8_t, 64> bytes;
+  constexpr auto yes = static_cast<std::uint8_t>(Meets::yes);
+  const auto met_state = hn::Set(bytes, yes);
+  std::size_t k = 0;
+  for (; k + hn::Lanes(bytes) <= pixels; k += hn::Lanes(bytes)) {
+    const auto halves = hn::LoadU(bytes, met + k);
+    hn::StoreU(hn::IfThenElseZero(hn::Ne(halves, hn::Zero(bytes)), met_state), bytes, met + k);
+  }
+  for (; k < pixels; ++k) met[k] = met[k] == 0 ? 0 : yes;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -187,12 +232,12 @@ HWY_AFTER_NAMESPACE();
 namespace ifsm::core {
 
 HWY_EXPORT(follow);
+HWY_EXPORT(tell);
 
 void follow_points(const InPixels& attractor, const Window& window, Meets* states, const Watch& watch) {
   auto* const met = reinterpret_cast<std::uint8_t*>(states);
   HWY_DYNAMIC_DISPATCH(follow)(attractor, window, met, watch);
-  std::transform(met, met + window.pixels(), states,
-                 [](std::uint8_t halves) { return halves == 0 ? Meets::no : Meets::yes; });
+  HWY_DYNAMIC_DISPATCH(tell)(met, static_cast<std::size_t>(window.pixels()));
 }
 
 }  // namespace ifsm::core

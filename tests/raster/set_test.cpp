@@ -88,6 +88,35 @@ TEST(SetPixels, FillASquareAndNothingBesideIt) {
   }
 }
 
+// A square whose sides lie beside the pixels' edges, by so little that rounding must be reckoned with.
+TEST(SetPixels, NeverMistakeWhatLiesHardByAnEdge) {
+  std::vector<Affine> ninths;
+  for (const double e : {0., 1., 2.})
+    for (const double f : {0., 1., 2.}) ninths.push_back(plane(1. / 3, 0, 0, 1. / 3, e / 3, f / 3));
+  const System square(2, ninths);
+  constexpr std::int64_t before = 5, across = 437, size = across + 2 * before;
+  constexpr double pixel = 1. / across;
+  std::int64_t decided = 0, all = 0;
+  for (double off = .05; off > 1e-8; off /= 1.7)
+    for (const double by : {off, -off})
+      for (const double tolerance : {1. / 16, 1. / 64, 1e-3}) {
+        const double low = (by - before) * pixel, high = low + size * pixel;
+        const auto states = set_of(square, {low, low, high, high, size, size}, tolerance);
+        // Those from 5 - by to 442 - by; rows are counted from above.
+        const auto is_met = [&](std::int64_t place) {
+          return place >= (by > 0 ? before - 1 : before) && place < before + across + (by > 0 ? 0 : 1);
+        };
+        for (std::int64_t k = 0; k < size * size; ++k) {
+          const Meets state = states[static_cast<std::size_t>(k)];
+          const bool met = is_met(k % size) && is_met(size - 1 - k / size);
+          ASSERT_NE(state, met ? Meets::no : Meets::yes) << k << ", " << by << " of a pixel, to " << tolerance;
+          decided += state != Meets::undecided;
+        }
+        all += size * size;
+      }
+  EXPECT_GT(decided, .98 * static_cast<double>(all)) << "more than the pixels along the sides are undecided";
+}
+
 TEST(SetPixels, LeaveOpenWhatOnlyTouches) {
   // In step with the window: what lies beside the square's edge is touched, and no point is inside.
   std::vector<Affine> quarters;
@@ -240,6 +269,27 @@ TEST(SetPixels, NeverContradictThePlainSearchInOddSystems) {
     const auto states = set_of(system, about(point, size / 300, 37, 33));
     const Grid grid(about(point, size / 300, 37, 33));
     EXPECT_NE(states[static_cast<std::size_t>(grid.pixel(point(0), point(1)))], Meets::no) << name;
+  }
+}
+
+// Coarse ones are found with floats, fine ones with doubles.
+TEST(SetPixels, OfCoarseTolerancesDoNotContradictThoseOfFineOnes) {
+  for (const NamedSystem& named : named_systems()) {
+    if (named.dimension != 2) continue;
+    const auto system = named_system(named.name);
+    const double size = system->enclosure().axes.norm();
+    for (const Window& window : {odd(*system, 300), about(point_of(*system), size / 1e5, 150, 140)}) {
+      const auto coarse = set_of(*system, window, 1. / 16), fine = set_of(*system, window, 1e-4);
+      std::int64_t contradictions = 0, found = 0;
+      for (std::size_t k = 0; k < fine.size(); ++k) {
+        contradictions +=
+            (coarse[k] == Meets::no && fine[k] == Meets::yes) || (coarse[k] == Meets::yes && fine[k] == Meets::no);
+        found += coarse[k] == Meets::undecided && fine[k] != Meets::undecided;
+      }
+      EXPECT_EQ(contradictions, 0) << named.name;
+      EXPECT_LE(count(fine, Meets::undecided), count(coarse, Meets::undecided) - found + count(fine, Meets::yes) / 1000)
+          << named.name;
+    }
   }
 }
 
