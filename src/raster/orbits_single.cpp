@@ -6,7 +6,9 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "raster/lanes-inl.h"
 #include "raster/orbits.h"
@@ -84,23 +86,23 @@ class Pixels {
 };
 
 template <Held held>
-class Steps {
+class Step {
  public:
-  explicit Steps(const Coefficients<float>& m)
-      : draw_(m.choice), a_(m.a), b_(m.b), c_(m.c), d_(m.d), e_(m.e), f_(m.f) {}
+  explicit Step(const Coefficients<float>& m) : draw_(m.choice), a_(m.a), b_(m.b), c_(m.c), d_(m.d), e_(m.e), f_(m.f) {}
 
-  // One step of all orbits; tell(orbit, x, y) of each vector of them.
-  template <class Tell>
-  HWY_INLINE void operator()(Orbits<float>& o, const Tell& tell) const {
-    for (std::size_t orbit = 0; orbit < orbit_count; orbit += width) {
-      const Integers map = draw_(o.random, orbit);
-      const Reals x = hn::Load(reals, &o.x[orbit]), y = hn::Load(reals, &o.y[orbit]);
-      const Reals next_x = hn::Add(hn::Add(hn::Mul(a_(map), x), hn::Mul(b_(map), y)), e_(map));
-      const Reals next_y = hn::Add(hn::Add(hn::Mul(c_(map), x), hn::Mul(d_(map), y)), f_(map));
-      hn::Store(next_x, reals, &o.x[orbit]);
-      hn::Store(next_y, reals, &o.y[orbit]);
-      tell(orbit, next_x, next_y);
-    }
+  struct Points {
+    Reals x, y;
+  };
+
+  // Of a vector of orbits.
+  HWY_INLINE Points operator()(Orbits<float>& o, std::size_t orbit) const {
+    const Integers map = draw_(o.random, orbit);
+    const Reals x = hn::Load(reals, &o.x[orbit]), y = hn::Load(reals, &o.y[orbit]);
+    const Reals next_x = hn::Add(hn::Add(hn::Mul(a_(map), x), hn::Mul(b_(map), y)), e_(map));
+    const Reals next_y = hn::Add(hn::Add(hn::Mul(c_(map), x), hn::Mul(d_(map), y)), f_(map));
+    hn::Store(next_x, reals, &o.x[orbit]);
+    hn::Store(next_y, reals, &o.y[orbit]);
+    return {next_x, next_y};
   }
 
  private:
@@ -108,31 +110,66 @@ class Steps {
   Table<decltype(reals), held> a_, b_, c_, d_, e_, f_;
 };
 
+// Counts in bytes; those that are full are carried together.
+class Counter {
+ public:
+  explicit Counter(const Tally& tally) : tally_(tally) {}
+
+  // A vector of pixels, without a loop: the processor foresees its end too seldom.
+  HWY_INLINE void operator()(const std::int32_t* pixels) { count(pixels, std::make_index_sequence<width>()); }
+
+  // Now and then, and at the end.
+  void carry() {
+    for (std::size_t k = 0; k < full_count_; ++k) tally_.carry(full_[k]);
+    full_count_ = 0;
+  }
+  // Before there is no room for the pixels of another step.
+  bool is_to_carry() const { return full_count_ > full_.size() - orbit_count; }
+
+ private:
+  // With copies of the members: a byte that is counted could be a part of them, for all that the compiler knows.
+  template <std::size_t... lane>
+  HWY_INLINE void count(const std::int32_t* pixels, std::index_sequence<lane...> /*all*/) {
+    const Tally tally = tally_;
+    std::size_t full = full_count_;
+    const auto count_one = [&](std::int32_t pixel) {
+      if (tally.fills(pixel)) full_[full++] = pixel;
+    };
+    (count_one(pixels[lane]), ...);
+    full_count_ = full;
+  }
+
+  Tally tally_;
+  std::size_t full_count_ = 0;
+  std::array<std::int32_t, 1024> full_;
+};
+
+// Pixels are counted a step after they were found, between the vectors of the next one: counts wait for the
+// second-level cache, and vectors do not.
 template <Held held>
 HWY_NOINLINE void run_held(Orbits<float>& orbits, const Coefficients<float>& maps, const Window& window,
                            std::int64_t steps, const Tally* tally) {
-  const Steps<held> step(maps);
-  if (tally == nullptr) {
-    for (std::int64_t k = 0; k < steps; ++k) step(orbits, [](std::size_t, const Reals, const Reals) {});
+  const Step<held> step(maps);
+  if (tally == nullptr || steps < 1) {
+    for (std::int64_t k = 0; k < steps; ++k)
+      for (std::size_t orbit = 0; orbit < orbit_count; orbit += width) step(orbits, orbit);
     return;
   }
   const Pixels pixels(window);
-  const Tally count = *tally;
-  HWY_ALIGN std::int32_t hit[orbit_count];
-  constexpr std::size_t most_full = 1024;
-  std::int32_t full[most_full];
-  std::size_t full_count = 0;
-  const auto carry_all = [&] {
-    for (std::size_t k = 0; k < full_count; ++k) count.carry(full[k]);
-    full_count = 0;
-  };
+  Counter count(*tally);
+  HWY_ALIGN std::int32_t room[2][orbit_count] = {};
+  std::int32_t *now = room[0], *before = room[1];
   for (std::int64_t k = 0; k < steps; ++k) {
-    step(orbits, [&](std::size_t orbit, const Reals x, const Reals y) { pixels(x, y, hit + orbit); });
-    for (const std::int32_t pixel : hit)
-      if (count.fills(pixel)) full[full_count++] = pixel;
-    if (full_count > most_full - orbit_count) carry_all();
+    std::swap(now, before);
+    for (std::size_t orbit = 0; orbit < orbit_count; orbit += width) {
+      const auto [x, y] = step(orbits, orbit);
+      pixels(x, y, now + orbit);
+      if (k != 0) count(before + orbit);
+    }
+    if (count.is_to_carry()) count.carry();
   }
-  carry_all();
+  for (std::size_t orbit = 0; orbit < orbit_count; orbit += width) count(now + orbit);
+  count.carry();
 }
 
 void run_orbits(Orbits<float>& orbits, const Coefficients<float>& maps, const Window& window, std::int64_t steps,
