@@ -74,16 +74,24 @@ class Job {
   Job(Session& session, const RenderArguments& arguments)
       : cancellable_(session.interrupt), progress_("render", Progress::style_of_terminal(arguments.talk.quiet)) {}
 
-  void attach(ifsm::PictureOptions& options) {
+  // What is computed takes that part of the time.
+  void attach(ifsm::PictureOptions& options, double part) {
     options.cancel = &cancellable_.token();
-    options.progress = [this](double fraction, const std::string& stage) {
-      progress_.update(fraction, stage);
+    options.progress = [this, part](double fraction, const std::string& stage) {
+      progress_.update(part * fraction, stage);
       return false;
     };
+    written_from_ = part;
+  }
+  // And what is written, the rest.
+  void tell_written(double fraction) {
+    confirm();
+    progress_.update(written_from_ + (1 - written_from_) * fraction, "PNG");
   }
   void confirm() const { cancellable_.confirm(); }
 
  private:
+  double written_from_ = 1;
   Interrupt::Cancellable cancellable_;
   Progress progress_;
 };
@@ -139,10 +147,12 @@ bool misses(const ifsm::System& system, const ifsm_picture_report& window) {
   return box[0] > window.right || box[2] < window.left || box[1] > window.top || box[3] < window.bottom;
 }
 
-Result picture(const ifsm::System& system, const ifsm::PictureOptions& options) {
+Result picture(const ifsm::System& system, ifsm::PictureOptions options, Job& job) {
+  constexpr double drawn_part = .75;  // of the time of a large picture with the usual number of points
+  job.attach(options, drawn_part);
   const auto drawn = system.render(options);
   const auto& told = drawn.report;
-  return {png_of(drawn.values, told.width, told.height),
+  return {png_of(drawn.values, told.width, told.height, [&](double fraction) { job.tell_written(fraction); }),
           {{"misses", told.points != 0 && told.inside == 0 && misses(system, told)},
            {"width", told.width},
            {"height", told.height},
@@ -154,7 +164,8 @@ Result picture(const ifsm::System& system, const ifsm::PictureOptions& options) 
 }
 
 Result points(const ifsm::System& system, ifsm::PictureOptions options, const std::string& format,
-              const std::string& title) {
+              const std::string& title, Job& job) {
+  job.attach(options, 1);
   if (options.points == 0) options.points = usual_points;
   const int dimension = system.describe().dimension;
   auto values = system.sample(options);
@@ -229,8 +240,7 @@ void run(const RenderArguments& arguments, Session& session) {
   Result result;
   try {
     Job job(session, arguments);
-    job.attach(options);
-    result = format == "png" ? picture(system, options) : points(system, options, format, title);
+    result = format == "png" ? picture(system, options, job) : points(system, options, format, title, job);
     job.confirm();
   } catch (const ifsm::Error& error) {
     refuse_system(error, arguments);

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -323,6 +326,39 @@ std::span<const NamedSystem> named_systems() {
   return names;
 }
 
+namespace {
+
+// Letters to put in, leave out or change until one is the other (Levenshtein's distance).
+std::size_t edits_between(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> edits(to.size() + 1);  // from the letters of `from` so far to the first k of `to`
+  std::iota(edits.begin(), edits.end(), std::size_t{0});
+  for (std::size_t row = 1; row <= from.size(); ++row) {
+    std::size_t diagonal = std::exchange(edits[0], row);
+    for (std::size_t k = 1; k <= to.size(); ++k) {
+      const std::size_t changed = diagonal + (from[row - 1] == to[k - 1] ? 0 : 1);
+      diagonal = std::exchange(edits[k], std::min({edits[k] + 1, edits[k - 1] + 1, changed}));
+    }
+  }
+  return edits.back();
+}
+
+// A name that may have been meant: " Did you mean fern?", or nothing.
+std::string suggestion(std::string_view wanted) {
+  constexpr std::size_t longest = 64;
+  if (wanted.size() > longest) return "";
+  std::string_view nearest;
+  std::size_t least = std::max<std::size_t>(2, wanted.size() / 3 + 1);  // of so many it is another word
+  const auto compare = [&](std::string_view name) {
+    const std::size_t edits = edits_between(wanted, name);
+    if (edits < least) least = edits, nearest = name;
+  };
+  for (const auto& [alias, meant] : aliases) compare(alias);
+  for (const Known& each : known()) compare(each.named.name);
+  return nearest.empty() ? "" : " Did you mean " + std::string(nearest) + "?";
+}
+
+}  // namespace
+
 SystemPtr named_system(std::string_view name) {
   std::string wanted(name);
   std::replace(wanted.begin(), wanted.end(), '-', '_');
@@ -338,7 +374,8 @@ SystemPtr named_system(std::string_view name) {
   std::string shorts;
   for (const auto& [alias, meant] : aliases) shorts += (shorts.empty() ? "" : ", ") + std::string(alias);
   throw Error(Status::range, "name",
-              "There is no system \"" + std::string(name) + "\"; there are " + names + "; for short " + shorts + ".");
+              "There is no system \"" + std::string(name) + "\"." + suggestion(wanted) + " There are " + names +
+                  "; for short " + shorts + ".");
 }
 
 }  // namespace ifsm::core

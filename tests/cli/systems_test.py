@@ -143,7 +143,7 @@ class Systems(Program):
 
     def test_what_cannot_be_is_refused(self):
         out = self.file("x.png")
-        self.refused(2, "There is no system \"frn\"", "render", "frn", "-o", out)
+        self.refused(2, "There is no system \"frn\". Did you mean fern?", "render", "frn", "-o", out)
         self.refused(2, "--window has 2 numbers", "render", "fern", "--window", "1,2", "-o", out)
         self.refused(2, "with left < right", "render", "fern", "--window", "1,0,0,1", "-o", out)
         self.refused(2, "'mauve' is no colour", "render", "fern", "--background", "mauve", "-o", out)
@@ -178,6 +178,20 @@ class Systems(Program):
         job.send_signal(signal.SIGINT)
         job.communicate(timeout=30)
         self.assertEqual(job.returncode, 130)
+        self.assertFalse(out.exists())
+
+    def test_a_signal_ends_the_writing_of_a_png_and_leaves_nothing(self):
+        out = self.file("x.png")
+        job = subprocess.Popen([PROGRAM, "render", "fern", "--size", "8000", "--colour", "set", "-o", out],
+                               stderr=subprocess.PIPE, text=True, preexec_fn=default_signals)
+        for line in job.stderr:
+            if "75 %" in line:  # the pixels are there, the file's bytes are not
+                break
+        job.send_signal(signal.SIGINT)
+        signalled = time.monotonic()
+        job.communicate(timeout=30)
+        self.assertEqual(job.returncode, 130)
+        self.assertLess(time.monotonic() - signalled, 20)
         self.assertFalse(out.exists())
 
     def test_systems_are_listed(self):
