@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <map>
 #include <utility>
 
 #include "io/text_lines.h"
@@ -57,29 +58,52 @@ class Reader {
   std::int64_t line_ = 1;
 };
 
-// The numbers of a block, its brace left behind.
-std::vector<double> numbers(Reader& reader, int dimension, const std::string& name) {
-  const std::int64_t begin = reader.line();
-  const std::size_t d = dimension == 3 ? 3 : 2, per_map = d * (d + 1) + 1;
+// The numbers of a block, and the line of each.
+struct Numbers {
   std::vector<double> values;
+  std::vector<std::int64_t> lines;
+};
+
+std::size_t numbers_per_map(int dimension) { return dimension == 3 ? 13 : 7; }
+
+// Numbers that are not those of whole maps: the first line of another number of them than a map takes is to blame, if
+// there is one after or before lines that are right.
+Error incomplete(const Numbers& numbers, std::int64_t begin, int dimension, const std::string& name) {
+  const std::size_t per_map = numbers_per_map(dimension);
+  const std::string each = "each map takes " + std::to_string(per_map) +
+                           (dimension == 2 ? " (write (3D) after the name of one of space)." : ".");
+  std::map<std::int64_t, std::size_t> rows;
+  for (const std::int64_t line : numbers.lines) ++rows[line];
+  const auto is_right = [&](const auto& row) { return row.second == per_map; };
+  const auto wrong = std::find_if_not(rows.begin(), rows.end(), is_right);
+  if (std::any_of(rows.begin(), rows.end(), is_right))
+    return at_line(
+        Status::format, wrong->first,
+        "This row of the system " + quoted(name) + " has " + std::to_string(wrong->second) + " numbers; " + each);
+  return at_line(Status::format, begin,
+                 "The system " + quoted(name) + " has " + std::to_string(numbers.values.size()) + " numbers; " + each);
+}
+
+// Up to a block's brace, which is left behind.
+Numbers read_numbers(Reader& reader, int dimension, const std::string& name) {
+  const std::int64_t begin = reader.line();
+  const std::size_t per_map = numbers_per_map(dimension);
+  Numbers numbers;
   for (;;) {
     if (reader.at_end())
       throw at_line(Status::format, begin, "The system " + quoted(name) + " has no end; close it by \"}\".");
     if (reader.front() == '}') break;
     const std::int64_t line = reader.line();
     const std::string_view word = reader.until(" \t\r\n\f\v,;}");
-    if (const Status status = read_number(word, values.emplace_back()); status != Status::ok)
+    if (const Status status = read_number(word, numbers.values.emplace_back()); status != Status::ok)
       throw no_number(status, word, line, "a system's rows hold numbers up to \"}\".");
-    if (values.size() > per_map * static_cast<std::size_t>(System::most_maps))
+    numbers.lines.push_back(line);
+    if (numbers.values.size() > per_map * static_cast<std::size_t>(System::most_maps))
       throw at_line(Status::limit, line, "The system " + quoted(name) + " has more than 256 maps.");
   }
   reader.skip_one();
-  if (values.empty() || values.size() % per_map != 0)
-    throw at_line(Status::format, begin,
-                  "The system " + quoted(name) + " has " + std::to_string(values.size()) + " numbers; each map takes " +
-                      std::to_string(per_map) +
-                      (dimension == 2 ? " (write (3D) after the name of one of space)." : "."));
-  return values;
+  if (numbers.values.empty() || numbers.values.size() % per_map != 0) throw incomplete(numbers, begin, dimension, name);
+  return numbers;
 }
 
 SystemPtr system_of(const std::vector<double>& values, int dimension) {
@@ -123,11 +147,15 @@ std::vector<FractintSystem> read_fractint(std::string_view text) {
       continue;
     }
     if (all.size() == most_systems) throw at_line(Status::limit, line, "The file has more than 4096 systems.");
-    const std::vector<double> values = numbers(reader, dimension, name);
+    const Numbers numbers = read_numbers(reader, dimension, name);
     try {
-      all.push_back({name, system_of(values, dimension)});
+      all.push_back({name, system_of(numbers.values, dimension)});
     } catch (const Error& error) {
-      throw at_line(error.status(), line, "The system " + quoted(name) + ": " + error.what());
+      // Its index is that of a map.
+      const std::size_t first =
+          static_cast<std::size_t>(std::max<std::int64_t>(error.index(), 0)) * numbers_per_map(dimension);
+      throw at_line(error.status(), error.index() < 0 ? line : numbers.lines[first],
+                    "The system " + quoted(name) + ": " + error.what());
     }
   }
   if (all.empty())

@@ -78,7 +78,9 @@ TEST(Fractint, NamesTheLineThatIsWrong) {
   for (const Case& each :
        {Case{"", Status::format, 1}, Case{"; nothing\n\n", Status::format, 1}, Case{"fern", Status::format, 1},
         Case{"\n\n{ 1 }", Status::format, 3}, Case{fern, Status::format, 1}, Case{"fern {}", Status::format, 1},
-        Case{fern + " 1 2 3 }", Status::format, 1}, Case{fern + " 1 x 3 }", Status::format, 3},
+        Case{fern + " 1 2 3 }", Status::format, 3}, Case{"n {\n 1 2\n 3 4 }", Status::format, 1},
+        Case{fern + " .5 0 0\n .5 0 0 1 .5 0 0 .5\n 0 0 1 1 }", Status::format, 3},
+        Case{fern + " .5 0 0 .5 0 0 -1 }", Status::range, 3}, Case{fern + " 1 x 3 }", Status::format, 3},
         Case{fern + " 1 1e400 3 }", Status::not_finite, 3}, Case{fern + " nan }", Status::not_finite, 3},
         Case{fern + " 0x10 }", Status::format, 3}, Case{"\ncomment { abc", Status::format, 2},
         Case{"\nflat { 0 0 0 0 0 0 0 }", Status::range, 2}, Case{"n { .5 0 0 .5 0 0 -1 }", Status::range, 1},
