@@ -5,6 +5,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstring>
 
 #include "raster/known_pixels.h"
 
@@ -112,6 +113,13 @@ void KnownPixels::add(std::size_t column, std::size_t row) {
     for (std::size_t left = 0; left < near && left <= column; ++left) renew(column - left, row - up);
   constexpr int many = 1 << 10;
   if (++added_ % many == 0) count();
+}
+
+bool KnownPixels::are_known(std::size_t first_column, std::size_t last_column, std::size_t first_row,
+                            std::size_t last_row) const {
+  for (std::size_t row = first_row; row <= last_row; ++row)
+    if (std::memchr(&bytes_[row * stride + first_column], 0, last_column - first_column + 1) != nullptr) return false;
+  return true;
 }
 
 }  // namespace ifsm::core

@@ -25,6 +25,8 @@ class KnownPixels {
   void add(std::size_t column, std::size_t row);
 
   bool is_known(std::size_t column, std::size_t row) const { return bytes_[row * stride + column] != 0; }
+  // All of columns first … last of those rows?
+  bool are_known(std::size_t first_column, std::size_t last_column, std::size_t first_row, std::size_t last_row) const;
   const std::uint8_t* bytes() const { return bytes_.data(); }
 
  private:

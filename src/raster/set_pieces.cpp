@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -73,22 +72,41 @@ class PieceStack {
   std::size_t size_ = 0, room_ = 0;
 };
 
-// Pixels of the tile that a piece tells about.
-struct Told {
-  std::int32_t first_column, end_column, first_row, end_row;
-  Meets state;
+// What a piece tells of pixels of the tile, in one number: notes are sorted, so that their order is not that of
+// vectors. What is met comes first, then row by row.
+class Note {
+ public:
+  struct Pixels {
+    std::size_t first_column, end_column, first_row, end_row;
+  };
+
+  Note(const Pixels& p, Meets state)
+      : bits_(p.end_column | p.end_row << 8 | p.first_column << 16 | p.first_row << 24 |
+              (state == Meets::yes ? std::uint64_t{0} : undecided)) {}
+
+  Pixels pixels() const { return {byte(2), byte(0), byte(3), byte(1)}; }
+  Meets state() const { return (bits_ & undecided) == 0 ? Meets::yes : Meets::undecided; }
+  friend bool operator<(Note a, Note b) { return a.bits_ < b.bits_; }
+
+ private:
+  static_assert(KnownPixels::side < 256);
+  static constexpr std::uint64_t undecided = std::uint64_t{1} << 32;
+  std::size_t byte(int number) const { return bits_ >> 8 * number & 0xFF; }
+
+  std::uint64_t bits_;
 };
 
 // What numbers of one type can follow.
 struct Precision {
-  // How far off the place of a piece may be, in pixels: at first, more with each map, and at most.
-  double at_first, of_a_map, at_most;
+  // How far off the place of a piece may be, in pixels: at first, more with each map while pieces are large (which are
+  // followed in doubles) and then, and at most.
+  double at_first, of_a_large_map, of_a_map, at_most;
   double farthest;  // how far the piece may reach from its middle, in its box
 };
 
 inline Precision doubles(const InPixels& attractor) {
   const double of_a_map = attractor.rounding / InPixels::longest_word;
-  return {of_a_map, of_a_map, attractor.rounding, std::numeric_limits<double>::infinity()};
+  return {of_a_map, of_a_map, of_a_map, attractor.rounding, std::numeric_limits<double>::infinity()};
 }
 
 // Twice as many go into a vector, and pieces about as large as the tile or smaller do with them. Such a piece, which
@@ -99,7 +117,7 @@ inline Precision doubles(const InPixels& attractor) {
 inline Precision floats(const InPixels& attractor, double tolerance) {
   constexpr double farthest = KnownPixels::side / 2., rounding = 0x1p-24 * 16 * farthest;
   const double of_a_map = rounding * std::max(1.0, attractor.farthest_move);
-  return {attractor.rounding + 2 * of_a_map, of_a_map, tolerance / 4, farthest};
+  return {attractor.rounding + 2 * of_a_map, 0, of_a_map, tolerance / 4, farthest};
 }
 
 // Do they, if all words are about as long as those of the slowest map?
@@ -160,8 +178,8 @@ class Search {
   }
 
   // What comes near a pixel's edge may have left it undecided before a point inside was seen. Such pixels are looked at
-  // again, in pieces that are larger: of those that have a point inside, nearly all are found. False: rounding stood in
-  // the way; what is in the tile is true.
+  // again, in pieces that are larger, and in more than one: of those that have a point inside, nearly all are found.
+  // False: rounding stood in the way; what is in the tile is true.
   bool run() {
     begin(Meets::yes, true);
     if (!descend()) return false;
@@ -169,7 +187,7 @@ class Search {
     begin(Meets::undecided, false);
     constexpr double larger = .25;
     smallest_ = std::max(larger, tolerance_);
-    again_ = true;
+    looks_ = many_looks;
     return descend();
   }
 
@@ -234,6 +252,7 @@ class Search {
 
   // Pixels of that state are known, or all others.
   void begin(Meets state, bool same) {
+    looked_at_.fill(0);
     known_.begin(reinterpret_cast<const std::uint8_t*>(tile_.first), tile_.stride, tile_.width, tile_.height,
                  static_cast<std::uint8_t>(state), same);
   }
@@ -250,10 +269,13 @@ class Search {
     while (!large.empty()) {
       const auto [p, length] = large.back();
       large.pop_back();
-      const double rounding = precision_.at_first;
+      const double rounding = precision_.at_first + length * precision_.of_a_large_map;
       const double across = attractor_.across(p) + rounding, down = attractor_.down(p) + rounding;
       if (p.e + across < 0 || p.e - across >= side || p.f + down < 0 || p.f - down >= side) continue;
-      if (std::max(across, down) <= precision_.farthest / 2) {
+      const auto pixel = [](double place) { return static_cast<std::size_t>(std::clamp(place, 0.0, side - 1)); };
+      if (known_.are_known(pixel(p.e - across), pixel(p.e + across), pixel(p.f - down), pixel(p.f + down))) continue;
+      constexpr double large_half = KnownPixels::side / 4.;
+      if (std::max(across, down) <= large_half) {
         open_.push(p, rounding);
         if (open_.size() >= pieces_per_block && !follow()) return false;
         continue;
@@ -374,7 +396,7 @@ class Search {
     small &= ~met;
     look_up_both(at.across, p, small);
     look_up_both(at.down, p, small);
-    if (!again_) tell(small, box, Meets::undecided);
+    tell(small, box, Meets::undecided);
     return open & ~(met | small);
   }
   HWY_INLINE static Reals size(const Place& at) {
@@ -448,29 +470,27 @@ class Search {
     HWY_ALIGN std::int32_t c0[width], c1[width], r0[width], r1[width];
     hn::Store(box.c0, integers, c0), hn::Store(box.c1, integers, c1);
     hn::Store(box.r0, integers, r0), hn::Store(box.r1, integers, r1);
+    const auto size = [](std::int32_t number) { return static_cast<std::size_t>(number); };
     for (; which != 0; which &= which - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(which));
-      told_.push_back({c0[lane], c1[lane], r0[lane], r1[lane], state});
+      const auto k = static_cast<std::size_t>(std::countr_zero(which));
+      notes_.emplace_back(Note::Pixels{size(c0[k]), size(c1[k]), size(r0[k]), size(r1[k])}, state);
     }
   }
-  // In an order that is not that of vectors, what is met first.
   void take_notes() {
-    const auto rank = [](const Told& t) {
-      return std::make_tuple(t.state == Meets::yes ? 0 : 1, t.first_row, t.first_column, t.end_row, t.end_column);
-    };
-    if (told_.size() > 1)
-      std::sort(told_.begin(), told_.end(), [&](const Told& a, const Told& b) { return rank(a) < rank(b); });
-    for (const Told& told : told_) take_note(told);
-    told_.clear();
+    std::sort(notes_.begin(), notes_.end());
+    for (const Note& note : notes_) take(note);
+    notes_.clear();
   }
-  void take_note(const Told& told) {
-    for (std::int32_t row = told.first_row; row < told.end_row; ++row)
-      for (std::int32_t column = told.first_column; column < told.end_column; ++column) {
-        const auto c = static_cast<std::size_t>(column), r = static_cast<std::size_t>(row);
-        if (known_.is_known(c, r)) continue;
-        tile_.first[row * tile_.stride + column] = told.state;
-        doubts_ = doubts_ || told.state == Meets::undecided;
-        known_.add(c, r);
+  void take(const Note& note) {
+    const auto [first_column, end_column, first_row, end_row] = note.pixels();
+    const Meets state = note.state();
+    for (std::size_t row = first_row; row < end_row; ++row)
+      for (std::size_t column = first_column; column < end_column; ++column) {
+        if (known_.is_known(column, row)) continue;
+        if (state == Meets::undecided && ++looked_at_[row * KnownPixels::side + column] < looks_) continue;
+        tile_.first[static_cast<std::int64_t>(row) * tile_.stride + static_cast<std::int64_t>(column)] = state;
+        doubts_ = doubts_ || state == Meets::undecided;
+        known_.add(column, row);
       }
   }
 
@@ -478,7 +498,11 @@ class Search {
   const InPixels& attractor_;
   const Precision& precision_;
   double tolerance_, smallest_;  // pieces of that size are not looked into
-  bool doubts_ = false, again_ = false;
+  bool doubts_ = false;
+  // So often is a pixel that stays undecided looked at: pieces that are alike may be more than can be followed.
+  static constexpr std::uint16_t many_looks = 4096;
+  std::uint16_t looks_ = 1;
+  std::array<std::uint16_t, KnownPixels::side * KnownPixels::side> looked_at_{};
   Tile tile_;
   const Watch& watch_;
   EightPoints corners_, opposite_corners_, points_, opposite_points_;
@@ -487,7 +511,7 @@ class Search {
   KnownPixels known_;
   PieceStack<Real> open_;
   PieceBlock<Real> block_{};
-  std::vector<Told> told_;
+  std::vector<Note> notes_;
   std::int64_t polls_ = 0;
 };
 
