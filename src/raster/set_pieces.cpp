@@ -96,12 +96,15 @@ class Note {
   std::uint64_t bits_;
 };
 
+// Pieces that reach farther from their middle, in their box, in pixels, are followed one by one, in doubles.
+constexpr double large_piece = KnownPixels::side / 4.;
+
 // What numbers of one type can follow.
 struct Precision {
-  // How far off the place of a piece may be, in pixels: at first, more with each map while pieces are large (which are
-  // followed in doubles) and then, and at most.
+  // How far off the place of a piece may be, in pixels: at first, more with each map while pieces are large and then,
+  // and at most.
   double at_first, of_a_large_map, of_a_map, at_most;
-  double farthest;  // how far the piece may reach from its middle, in its box
+  double farthest;  // how far the piece may reach
 };
 
 inline Precision doubles(const InPixels& attractor) {
@@ -109,13 +112,14 @@ inline Precision doubles(const InPixels& attractor) {
   return {of_a_map, of_a_map, of_a_map, attractor.rounding, std::numeric_limits<double>::infinity()};
 }
 
-// Twice as many go into a vector, and pieces about as large as the tile or smaller do with them. Such a piece, which
-// reaches up to B = 64 pixels, lies within 4 B of the tile's corner. In units of 2^-24 pixels, a map's rounding is at
-// most 2 B of the products with its move (times that in halves of the box), 4 B of the place, and what M carries on:
-// 2^1.5 B j s^j after j maps that shrink by s, less than 7 B for s = .85, and on the average over 128 maps, which may
-// shrink as little as s = .94, less than 9 B. So 16 B are enough for each map; two such are for what a box rounds.
+// Twice as many go into a vector, and pieces no larger than half a tile do with them: those that reach B = 32 pixels,
+// or 2 B where maps stretch before they shrink, whose middle is then less than 6 B from the tile's corner. In units of
+// 2^-24 pixels, a map's place is off by 6 B for the sum, 3 B for the products (if its move is no longer than half the
+// box, else as much more) and by what M carries on: 3 2^.5 B j s^j after j maps that shrink by s. Of the last, the mean
+// over the first maps is less than 21 B for s up to .94, and with s = .94 there are at most 128 maps. So 32 B are
+// enough for each map; two such are for what a box rounds.
 inline Precision floats(const InPixels& attractor, double tolerance) {
-  constexpr double farthest = KnownPixels::side / 2., rounding = 0x1p-24 * 16 * farthest;
+  constexpr double farthest = 2 * large_piece, rounding = 0x1p-24 * 32 * large_piece;
   const double of_a_map = rounding * std::max(1.0, attractor.farthest_move);
   return {attractor.rounding + 2 * of_a_map, 0, of_a_map, tolerance / 4, farthest};
 }
@@ -274,8 +278,7 @@ class Search {
       if (p.e + across < 0 || p.e - across >= side || p.f + down < 0 || p.f - down >= side) continue;
       const auto pixel = [](double place) { return static_cast<std::size_t>(std::clamp(place, 0.0, side - 1)); };
       if (known_.are_known(pixel(p.e - across), pixel(p.e + across), pixel(p.f - down), pixel(p.f + down))) continue;
-      constexpr double large_half = KnownPixels::side / 4.;
-      if (std::max(across, down) <= large_half) {
+      if (std::max(across, down) <= large_piece) {
         open_.push(p, rounding);
         if (open_.size() >= pieces_per_block && !follow()) return false;
         continue;

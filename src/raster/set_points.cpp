@@ -194,6 +194,8 @@ class Follower {
   Integers both_halves_;  // where they are one: without slow maps
 };
 
+// A point may be the image of another under more maps than InPixels::longest_word. What a map rounds, the next ones
+// shrink; where they shrink so little that it adds up to more, pieces do not get small either, and end in an error.
 void follow(const InPixels& attractor, const Window& window, std::uint8_t* met, const Watch& watch) {
   Follower follower(attractor, window, met);
   Open open;
