@@ -1659,7 +1659,7 @@ enum { IFSM_PIXEL_EMPTY = 0, IFSM_PIXEL_UNDECIDED = 1, IFSM_PIXEL_MET = 2 };
  * pixels    [out] width × height times IFSM_PIXEL_…
  *
  * Errors: as ifsm_system_histogram; RANGE also: a tolerance that rounding does not leave; LIMIT: maps that shrink too
- * slowly for it. Since 0.1. */
+ * slowly for it, or overlap so much that a window so small holds more pieces than are looked at. Since 0.1. */
 IFSM_API IFSM_MUST_USE ifsm_status ifsm_system_set(ifsm_system system, const ifsm_picture_options *options,
                                                    ifsm_picture_report *report, uint8_t *pixels, int64_t capacity,
                                                    int64_t *count);

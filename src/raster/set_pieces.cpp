@@ -14,6 +14,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -283,7 +284,7 @@ class Search {
         if (open_.size() >= pieces_per_block && !follow()) return false;
         continue;
       }
-      poll();
+      reckon(maps_.size());
       if (length == InPixels::longest_word) return false;
       for (const Piece& map : attractor_.maps) large.push_back({p * map, length + 1});
     }
@@ -293,8 +294,8 @@ class Search {
   // Depth first, in blocks.
   bool follow() {
     while (open_.size() != 0) {
-      poll();
       open_.pop(block_);
+      reckon(block_.size * maps_.size());
       if (!block_is_exact()) return false;
       for (std::size_t k = 0; k < block_.size; k += width) look_up_points(piece(k), block_.size - k);
       take_notes();
@@ -328,9 +329,15 @@ class Search {
     return {pixel(at.x.from), pixel(hn::Add(at.x.to, one)), pixel(at.y.from), pixel(hn::Add(at.y.to, one))};
   }
 
-  void poll() {
-    constexpr std::int64_t between = 1 << 8;
-    if (++polls_ % between == 0) watch_.poll();
+  // Before so many pieces are followed.
+  void reckon(std::size_t pieces) {
+    constexpr std::size_t between = 1 << 15, most = std::size_t{1} << 31;
+    const std::size_t before = std::exchange(followed_, followed_ + pieces);
+    if (before / between != followed_ / between) watch_.poll();
+    if (followed_ > most)
+      throw Error(Status::limit, "window",
+                  "More pieces of the attractor lie over one another in this window than are looked at; give larger "
+                  "pixels or a larger tolerance, or count points instead.");
   }
 
   // Are all of the block where they are said to be, and of a size that the numbers can follow?
@@ -515,7 +522,7 @@ class Search {
   PieceStack<Real> open_;
   PieceBlock<Real> block_{};
   std::vector<Note> notes_;
-  std::int64_t polls_ = 0;
+  std::size_t followed_ = 0;  // pieces
 };
 
 void search(const InPixels& attractor, double tolerance, const Tile& tile, const Watch& watch) {

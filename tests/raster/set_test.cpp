@@ -326,6 +326,24 @@ TEST(SetPixels, AreTheSameOnEveryVectorTarget) {
   }
 }
 
+// Five maps whose areas add up to more than the attractor's: of its pieces a million and more lie over one another
+// here.
+TEST(SetPixels, EndWhereMorePiecesLieOverOneAnotherThanCanBeFollowed) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "takes minutes with sanitizers";
+#endif
+  const System heap(
+      2, {plane(0, .5, .5, .5, 1, .75), plane(.125, 0, 0, 1. / 3, 1, .25), plane(1. / 3, 1. / 3, 0, .5, 0, 0),
+          plane(.25, 0, 0, .25, .25, .5), plane(0, .25, .5, .25, 1, 1)});
+  try {
+    set_of(heap, {2.034825336193697, 1.7594180097128711, 2.034826677048942, 1.7594192281081591, 29, 3}, .1);
+    ADD_FAILURE() << "was decided";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.status(), Status::limit);
+    EXPECT_EQ(error.argument(), "window");
+  }
+}
+
 TEST(SetPixels, RefuseTolerancesByName) {
   const auto fern = named_system("fern");
   for (const double bad : {0.0, -1.0, 1.5, double(NAN), 1e-12}) {
