@@ -63,7 +63,7 @@ std::uint32_t colour_code(const std::string& given) {
                      text.find_first_not_of("0123456789abcdefABCDEF", 1) == text.npos;
   if (!right)
     throw Failure(Exit::Usage,
-                  "--background: '" + text + "' is no colour; give #rrggbb, #rrggbbaa, white, black or none.");
+                  "--background: '" + text + "' is no colour; give #rgb, #rrggbb, #rrggbbaa, white, black or none.");
   const auto code = static_cast<std::uint32_t>(std::stoul(text.substr(1), nullptr, 16));
   return text.size() == 9 ? code : code << 8 | 0xff;
 }
@@ -153,7 +153,7 @@ Result picture(const ifsm::System& system, ifsm::PictureOptions options, Job& jo
   const auto drawn = system.render(options);
   const auto& told = drawn.report;
   return {png_of(drawn.values, told.width, told.height, [&](double fraction) { job.tell_written(fraction); }),
-          {{"misses", told.points != 0 && told.inside == 0 && misses(system, told)},
+          {{"misses", told.inside == 0 && told.met == 0 && misses(system, told)},
            {"width", told.width},
            {"height", told.height},
            {"window", {told.left, told.bottom, told.right, told.top}},
@@ -195,6 +195,8 @@ std::string in_words(const Json& report) {
                       " to " + side(2) + ", y from " + side(1) + " to " + side(3);
   if (report["points"] != 0)
     words += "; " + report["inside"].dump() + " of " + report["points"].dump() + " points inside";
+  if (report["met"] != 0 || report["undecided"] != 0)
+    words += "; of the computed ones " + report["met"].dump() + " met, " + report["undecided"].dump() + " undecided";
   if (report["misses"] == true) words += ": the window misses the attractor";
   return words + size;
 }
@@ -213,9 +215,12 @@ void refuse_idle_options(const RenderArguments& arguments, const std::string& fo
   const std::string& colour = arguments.colour;
   idle("--symbols", colour == "address", "address");
   idle("--tolerance", colour == "set" || colour == "distance", "set or distance");
-  if (arguments.points && (colour == "set" || colour == "distance"))
-    throw Failure(Exit::Usage,
-                  "--points does not go with --colour " + colour + ", which draws nothing at random; leave it out.");
+  const bool draws_points = colour != "set" && colour != "distance";
+  for (const auto& [name, given] :
+       {std::pair("--points", arguments.points.has_value()), std::pair("--seed", arguments.options.seed != 0)})
+    if (given && !draws_points)
+      throw Failure(Exit::Usage, std::string(name) + " does not go with --colour " + colour +
+                                     ", which draws nothing at random; leave it out.");
 }
 
 // Of the plane there is one view.
@@ -285,7 +290,7 @@ void add_render(CLI::App& program, Session& session) {
       ->capture_default_str();
   command->add_option("--symbols", a.options.symbols, "Of addresses, so many symbols (default: all)")
       ->transform(whole_number(1, 16));
-  command->add_option("--background", a.background, "#rrggbb, #rrggbbaa, white, black")->capture_default_str();
+  command->add_option("--background", a.background, "#rgb, #rrggbb, #rrggbbaa, white, black")->capture_default_str();
   command
       ->add_option("--points", a.points,
                    "Points to play (default: enough for 16 a pixel, in space 32; of a file 100000)")
@@ -297,8 +302,12 @@ void add_render(CLI::App& program, Session& session) {
       ->transform(whole_number(1, 8));
   command->add_option("--tolerance", a.options.tolerance, "Of sets and distances, in pixels")
       ->check(number_between("0", "1"));
-  command->add_option("--azimuth", a.azimuth, "Space: degrees about the z axis")->capture_default_str();
-  command->add_option("--elevation", a.elevation, "Space: degrees above the xy plane")->capture_default_str();
+  command->add_option("--azimuth", a.azimuth, "Space: degrees about the z axis")
+      ->check(number_between("-360", "360"))
+      ->capture_default_str();
+  command->add_option("--elevation", a.elevation, "Space: degrees above the xy plane")
+      ->check(number_between("-360", "360"))
+      ->capture_default_str();
   command->add_option("--field", a.field, "Space: the angle of view in degrees; 0 for parallel lines")
       ->check(number_between("0", "170"))
       ->capture_default_str();

@@ -86,14 +86,22 @@ InPixels::InPixels(const System& system, const Window& window) {
     maps.push_back({map.linear(0, 0), map.linear(0, 1) * across / down, map.linear(1, 0) * down / across,
                     map.linear(1, 1), moved(0) * across, moved(1) * down});
     slowest = std::max(slowest, spectral_radius(map.linear.topLeftCorner<2, 2>()));
-    farthest_move = std::max({farthest_move, std::abs(moved(0)) * across / half[0], moved(1) * down / half[1]});
+    farthest_move =
+        std::max({farthest_move, std::abs(moved(0)) * across / half[0], std::abs(moved(1) * down) / half[1]});
   }
   const Vector3 point = system.point() - middle;
   points = far_points(maps, point(0) * across, point(1) * down);
   whole = {1, 0, 0, 1, (middle(0) - window.left) * across, (middle(1) - window.top) * down};
 
-  // Each map of a word adds some roundings of numbers as large as the attractor and the window are in pixels.
-  const double largest = std::max({std::abs(whole.e), std::abs(whole.f), 2 * half[0], 2 * half[1]});
+  // Each map of a word adds some roundings of numbers as large as the attractor and the window are in pixels, and those
+  // of its own move, which is a difference of numbers as large as the coordinates.
+  double largest =
+      std::max({std::abs(whole.e), std::abs(whole.f), 2 * half[0], 2 * half[1], std::abs(window.left) * across,
+                std::abs(window.top * down), std::abs(middle(0)) * across, std::abs(middle(1) * down)});
+  for (const Affine& map : system.active_maps()) {
+    const Vector3 far = map.linear.cwiseAbs() * middle.cwiseAbs() + map.shift.cwiseAbs();
+    largest = std::max({largest, far(0) * across, std::abs(far(1) * down)});
+  }
   rounding = longest_word * 8 * std::numeric_limits<double>::epsilon() * largest;
 }
 

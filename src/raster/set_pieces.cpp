@@ -108,9 +108,10 @@ struct Precision {
   double farthest;  // how far the piece may reach
 };
 
+// What was computed before (the box, the maps' moves) may be off already by as much as the longest word adds.
 inline Precision doubles(const InPixels& attractor) {
   const double of_a_map = attractor.rounding / InPixels::longest_word;
-  return {of_a_map, of_a_map, of_a_map, attractor.rounding, std::numeric_limits<double>::infinity()};
+  return {attractor.rounding, of_a_map, of_a_map, 2 * attractor.rounding, std::numeric_limits<double>::infinity()};
 }
 
 // Twice as many go into a vector, and pieces no larger than half a tile do with them: those that reach B = 32 pixels,
@@ -331,7 +332,7 @@ class Search {
 
   // Before so many pieces are followed.
   void reckon(std::size_t pieces) {
-    constexpr std::size_t between = 1 << 15, most = std::size_t{1} << 31;
+    constexpr std::size_t between = 1 << 15, most = std::size_t{1} << 32;
     const std::size_t before = std::exchange(followed_, followed_ + pieces);
     if (before / between != followed_ / between) watch_.poll();
     if (followed_ > most)

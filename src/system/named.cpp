@@ -347,7 +347,7 @@ std::string suggestion(std::string_view wanted) {
   constexpr std::size_t longest = 64;
   if (wanted.size() > longest) return "";
   std::string_view nearest;
-  std::size_t least = std::max<std::size_t>(2, wanted.size() / 3 + 1);  // of so many it is another word
+  std::size_t least = wanted.size() / 4 + 2;  // of so many it is another word
   const auto compare = [&](std::string_view name) {
     const std::size_t edits = edits_between(wanted, name);
     if (edits < least) least = edits, nearest = name;

@@ -164,6 +164,17 @@ class Systems(Program):
         self.refused(2, "--levels goes with a model", "convert", "fern", "--levels", 5, "-o", self.file("x.json"))
         self.refused(2, "has 20 active maps", "convert", "sponge", "-o", self.file("x.ifsm"))
 
+    def test_a_set_tells_its_pixels_or_that_the_window_misses(self):
+        out = self.file("x.png")
+        words = self.fine("render", "fern", "--colour", "set", "--size", 8, "-o", out)
+        self.assertRegex(words, r"of the computed ones \d+ met, \d+ undecided")
+        for colour in ("set", "distance"):
+            words = self.fine("render", "fern", "--colour", colour, "--window", "50,50,60,60", "--size", 8, "-o", out)
+            self.assertIn("the window misses the attractor", words)
+            self.refused(2, "--seed does not go with --colour " + colour, "render", "fern", "--colour", colour, "--seed", 5,
+                         "-o", out)
+        self.refused(2, "--azimuth", "render", "sponge", "--azimuth", "inf", "-o", out)
+
     def test_a_small_window_on_the_stem_is_not_said_to_miss(self):
         words = self.fine("render", "fern", "--window=-0.000005,0.5,0.000005,0.50001", "--size", 8, "--points", 1000, "-o",
                           self.file("x.png"))

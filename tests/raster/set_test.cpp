@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "base/error.h"
 #include "support.h"
@@ -197,6 +198,32 @@ TEST(SetPixels, OfAPartAreThoseOfTheWhole) {
 TEST(SetPixels, AreNoneWhereTheWindowMissesTheAttractor) {
   const auto states = set_of(*named_system("fern"), {100, 100, 101, 101, 10, 10});
   EXPECT_EQ(count(states, Meets::no), 100);
+}
+
+// Attractors of one point, which is a double exactly, beside windows whose edges are a few of the last digits away.
+TEST(SetPixels, NeverMistakeASmallAttractorFarFromTheOrigin) {
+  std::mt19937_64 random(7);
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  std::int64_t decided = 0, refused = 0;
+  for (int turn = 0; turn < 20000; ++turn) {
+    const double x = between(-1, 1) * std::exp2(between(-4, 14)), y = between(-1, 1) * std::exp2(between(-4, 14));
+    const double rest = std::exp2(-static_cast<double>(1 + random() % 6));  // (1 - M) c is exact
+    const System system(2, {plane(1 - rest, 0, 0, 1 - rest, rest * x, rest * y)});
+    const double size = std::exp2(between(-36, 0)), digit = std::nextafter(std::abs(x), 1e9) - std::abs(x);
+    const double left = x + static_cast<double>(static_cast<int>(random() % 9) - 4) * digit;
+    try {
+      const auto states =
+          set_of(system, {left, y - size / 2, left + size, y + size / 2, 1, 1}, std::exp2(between(-8, 0)));
+      const bool met = x >= left && x < left + size;
+      ASSERT_NE(states[0], met ? Meets::no : Meets::yes) << x << " " << y << " " << left << " " << size;
+      decided += states[0] != Meets::undecided;
+    } catch (const Error& error) {
+      ASSERT_EQ(error.status(), Status::range) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 1000) << "no window was as fine as the digits";
+  EXPECT_LT(refused, 15000);
 }
 
 // The stem is the image of all of the fern under a flat map: of its pieces more lie in such a window than can be
