@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/error.h"
@@ -105,15 +106,36 @@ class Waiting {
   std::size_t count_ = 0;
 };
 
+// Pixels first … end - 1 of so many, part by part: what is large takes seconds, not without a poll.
+template <class Body>
+void for_parts(std::size_t count, const Watch& watch, const Body& body) {
+  constexpr std::size_t part = 1 << 20;
+  for (std::size_t first = 0; first < count; first += part) {
+    watch.poll();
+    body(first, std::min(count, first + part));
+  }
+}
+
+// So many of one value. The first touch of memory is what takes long.
+template <class Value>
+std::vector<Value> filled(std::size_t count, const Value& value, const Watch& watch) {
+  std::vector<Value> all;
+  all.reserve(count);
+  for_parts(count, watch, [&](std::size_t, std::size_t end) { all.resize(end, value); });
+  return all;
+}
+
 // Plays all chunks, each into one of some canvases, as many as there are threads; the first one holds all in the end.
-// Canvas: see(number of a colour, x), settle() what waits, add(other).
-template <std::size_t d, class Canvas>
-Canvas paint(const System& system, const Colours& colours, const Canvas& empty, std::uint64_t seed, std::int64_t points,
-             Watch& watch) {
+// Canvas: see(number of a colour, x), settle() what waits, add(other, watch).
+template <std::size_t d, class Make>
+auto paint(const System& system, const Colours& colours, const Make& make_canvas, std::uint64_t seed,
+           std::int64_t points, Watch& watch) {
+  using Canvas = decltype(make_canvas());
   const WalkMaps<d> maps(system);
   const Start start(system);
   const std::int64_t chunks = (points + points_per_chunk - 1) / points_per_chunk;
-  std::vector<Canvas> canvases(static_cast<std::size_t>(std::clamp<std::int64_t>(chunks, 1, threads_at_once())), empty);
+  std::vector<Canvas> canvases;
+  std::generate_n(std::back_inserter(canvases), std::clamp<std::int64_t>(chunks, 1, threads_at_once()), make_canvas);
   const auto groups = static_cast<std::int64_t>(canvases.size());
   for (std::int64_t done = 0; done < chunks; done += groups) {
     parallel_for(std::min(groups, chunks - done), 0, [&](std::int64_t group) {
@@ -132,7 +154,7 @@ Canvas paint(const System& system, const Colours& colours, const Canvas& empty, 
     watch.report(static_cast<double>(std::min(done + groups, chunks)) / static_cast<double>(chunks), "points");
   }
   for (Canvas& canvas : canvases) canvas.settle();
-  for (std::size_t k = 1; k < canvases.size(); ++k) canvases[0].add(canvases[k]);
+  for (std::size_t k = 1; k < canvases.size(); ++k) canvases[0].add(canvases[k], watch);
   watch.finish();
   return std::move(canvases[0]);
 }
@@ -140,8 +162,8 @@ Canvas paint(const System& system, const Colours& colours, const Canvas& empty, 
 // The light of all points of a pixel, added up.
 class alignas(apart) LightSums {
  public:
-  LightSums(const Window& window, const Colours& colours)
-      : grid_(window), colours_(&colours), sums_(static_cast<std::size_t>(window.pixels()) + 1) {}
+  LightSums(const Window& window, const Colours& colours, const Watch& watch)
+      : grid_(window), colours_(&colours), sums_(filled(static_cast<std::size_t>(window.pixels()) + 1, Sum{}, watch)) {}
 
   void see(std::uint32_t number, const std::array<double, 2>& x) {
     const auto pixel = static_cast<std::size_t>(grid_.pixel(x[0], x[1]));
@@ -157,36 +179,34 @@ class alignas(apart) LightSums {
     });
   }
 
-  void add(const LightSums& other) {
-    for (std::size_t p = 0; p < sums_.size(); ++p) {
-      sums_[p].count += other.sums_[p].count;
-      for (std::size_t k = 0; k < 3; ++k) sums_[p].light[k] += other.sums_[p].light[k];
-    }
+  void add(const LightSums& other, const Watch& watch) {
+    for_parts(sums_.size(), watch, [&](std::size_t first, std::size_t end) {
+      for (std::size_t p = first; p < end; ++p) {
+        sums_[p].count += other.sums_[p].count;
+        for (std::size_t k = 0; k < 3; ++k) sums_[p].light[k] += other.sums_[p].light[k];
+      }
+    });
   }
 
   // Mean colours; where points are few, nearer to white.
-  Portrait portrait() const {
+  Portrait portrait(const Watch& watch) const {
     Portrait made;
     const std::size_t pixels = sums_.size() - 1;
     std::vector<std::uint32_t> counts(pixels);
-    for (std::size_t p = 0; p < pixels; ++p) {
-      counts[p] = static_cast<std::uint32_t>(
-          std::min<std::uint64_t>(sums_[p].count, std::numeric_limits<std::uint32_t>::max()));
-      made.inside += static_cast<std::int64_t>(sums_[p].count);
-      made.met += sums_[p].count > 0 ? 1 : 0;
-    }
+    for_parts(pixels, watch, [&](std::size_t first, std::size_t end) {
+      for (std::size_t p = first; p < end; ++p) {
+        counts[p] = static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(sums_[p].count, std::numeric_limits<std::uint32_t>::max()));
+        made.inside += static_cast<std::int64_t>(sums_[p].count);
+        made.met += sums_[p].count > 0 ? 1 : 0;
+      }
+    });
     const Density density(counts);
     made.pixels.resize(pixels);
-    for (std::size_t p = 0; p < pixels; ++p) {
-      if (counts[p] == 0) continue;
-      constexpr double faintest = .6;
-      const double solid = faintest + (1 - faintest) * density(counts[p]);
-      std::array<double, 3> light{};
-      for (std::size_t k = 0; k < 3; ++k)
-        light[k] =
-            1 - solid * (1 - static_cast<double>(sums_[p].light[k]) / static_cast<double>(sums_[p].count) / full_light);
-      made.pixels[p] = {colour_of(light), 255};
-    }
+    for_parts(pixels, watch, [&](std::size_t first, std::size_t end) {
+      for (std::size_t p = first; p < end; ++p)
+        if (counts[p] != 0) made.pixels[p] = {colour_of(light_of(sums_[p], density(counts[p]))), 255};
+    });
     return made;
   }
 
@@ -195,6 +215,14 @@ class alignas(apart) LightSums {
     std::uint64_t count = 0;
     std::array<std::uint64_t, 3> light{};
   };
+  static std::array<double, 3> light_of(const Sum& sum, double density) {
+    constexpr double faintest = .6;
+    const double solid = faintest + (1 - faintest) * density;
+    std::array<double, 3> light{};
+    for (std::size_t k = 0; k < 3; ++k)
+      light[k] = 1 - solid * (1 - static_cast<double>(sum.light[k]) / static_cast<double>(sum.count) / full_light);
+    return light;
+  }
   struct Seen {
     std::size_t pixel;
     std::uint32_t number;
@@ -210,8 +238,8 @@ class alignas(apart) LightSums {
 // In 32 bits, since the pixels of a picture should stay near: 22 of farness, 10 of the number.
 class alignas(apart) Nearest {
  public:
-  Nearest(const Window& window, const View& view)
-      : grid_(window), view_(view), seen_(static_cast<std::size_t>(window.pixels()) + 1, nothing) {}
+  Nearest(const Window& window, const View& view, const Watch& watch)
+      : grid_(window), view_(view), seen_(filled(static_cast<std::size_t>(window.pixels()) + 1, nothing, watch)) {}
 
   void see(std::uint32_t number, const std::array<double, 3>& x) {
     const View::Seen seen = view_(x[0], x[1], x[2]);
@@ -228,9 +256,11 @@ class alignas(apart) Nearest {
     waiting_.take([&](const Seen& seen) { seen_[seen.pixel] = std::min(seen_[seen.pixel], seen.key); });
   }
 
-  void add(const Nearest& other) {
+  void add(const Nearest& other, const Watch& watch) {
     inside_ += other.inside_;
-    for (std::size_t p = 0; p < seen_.size(); ++p) seen_[p] = std::min(seen_[p], other.seen_[p]);
+    for_parts(seen_.size(), watch, [&](std::size_t first, std::size_t end) {
+      for (std::size_t p = first; p < end; ++p) seen_[p] = std::min(seen_[p], other.seen_[p]);
+    });
   }
 
   Portrait portrait(const Colours& colours, const Look& look) const {
@@ -294,7 +324,8 @@ Portrait plane_portrait(const System& system, const Window& window, const Look& 
   static_cast<void>(system.enclosure());  // refuses what has no attractor
   require_points(points);
   const Colours colours(system, look);
-  return paint<2>(system, colours, LightSums(window, colours), seed, points, watch).portrait();
+  const auto canvas = [&] { return LightSums(window, colours, watch); };
+  return paint<2>(system, colours, canvas, seed, points, watch).portrait(watch);
 }
 
 Portrait space_portrait(const System& system, const View& view, const Window& window, const Look& look,
@@ -306,7 +337,8 @@ Portrait space_portrait(const System& system, const View& view, const Window& wi
   static_cast<void>(system.enclosure());
   require_points(points);
   const Colours colours(system, look);
-  return paint<3>(system, colours, Nearest(window, view), seed, points, watch).portrait(colours, look);
+  const auto canvas = [&] { return Nearest(window, view, watch); };
+  return paint<3>(system, colours, canvas, seed, points, watch).portrait(colours, look);
 }
 
 }  // namespace ifsm::core
