@@ -41,8 +41,8 @@ void require_tolerance(double tolerance, double rounding) {
   if (!(rounding < 1))
     throw Error(
         Status::range, "window",
-        "Rounding moves points of this window by more than a pixel; give larger or fewer pixels, or a window and a "
-        "system that are not so far from the origin for their size.")
+        "Rounding, added up over long words, may move points of this window by more than a pixel; give larger or fewer "
+        "pixels, or a window and a system that are not so far from the origin for their size.")
         .with(rounding);
   if (tolerance > rounding && tolerance <= 1) return;
   throw Error(Status::range, "tolerance",
