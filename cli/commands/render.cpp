@@ -133,6 +133,7 @@ void refuse_system(const ifsm::Error& error, const RenderArguments& arguments) {
   if (error.argument == "window" || error.argument == "right" || error.argument == "top" || error.argument == "left" ||
       error.argument == "bottom")
     throw Failure(Exit::Usage, std::string("--window: ") + error.what());
+  if (error.argument == "tolerance") throw Failure(Exit::Usage, std::string("--tolerance: ") + error.what());
   if (error.argument != "system") return;
   if (error.status == IFSM_ERROR_SHAPE)
     throw Failure(Exit::Usage, "--colour " + arguments.colour + ": " + error.what());

@@ -14,6 +14,7 @@
 #include "raster/bands.h"
 #include "raster/histogram.h"
 #include "raster/orbits.h"
+#include "raster/parts.h"
 #include "system/reach.h"
 
 namespace ifsm::core {
@@ -166,11 +167,8 @@ Counts in_histograms(const Game<Real>& game, Watch& watch, const Play& play) {
 
 // All pages of large memory are asked for here, which may take seconds: not without a poll.
 void clear(std::span<std::uint32_t> counts, const Watch& watch) {
-  constexpr std::size_t at_once = 1 << 24;
-  for (std::size_t first = 0; first < counts.size(); first += at_once) {
-    watch.poll();
-    std::ranges::fill(counts.subspan(first, std::min(at_once, counts.size() - first)), 0U);
-  }
+  for_parts(counts.size(), watch,
+            [&](std::size_t first, std::size_t end) { std::ranges::fill(counts.subspan(first, end - first), 0U); });
 }
 
 // Rounds of chunks are sorted, and then added.

@@ -35,8 +35,7 @@ class Search {
 
   // Does the piece tell nothing more, or is it too small to be looked into?
   bool is_settled(const Piece& p) {
-    const double across = std::abs(p.a) * attractor_.half[0] + std::abs(p.b) * attractor_.half[1] + attractor_.rounding;
-    const double down = std::abs(p.c) * attractor_.half[0] + std::abs(p.d) * attractor_.half[1] + attractor_.rounding;
+    const double across = attractor_.across(p) + attractor_.rounding, down = attractor_.down(p) + attractor_.rounding;
     const Range touched{std::floor(p.e - across), std::floor(p.e + across), std::floor(p.f - down),
                         std::floor(p.f + down)};
     if (all(touched, [](Meets state) { return state == Meets::yes; })) return true;  // also when it misses the window

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "raster/parts.h"
 #include "raster/relief.h"
 #include "raster/walk.h"
 
@@ -105,16 +106,6 @@ class Waiting {
   std::array<Seen, orbit_count> all_;
   std::size_t count_ = 0;
 };
-
-// Pixels first … end - 1 of so many, part by part: what is large takes seconds, not without a poll.
-template <class Body>
-void for_parts(std::size_t count, const Watch& watch, const Body& body) {
-  constexpr std::size_t part = 1 << 20;
-  for (std::size_t first = 0; first < count; first += part) {
-    watch.poll();
-    body(first, std::min(count, first + part));
-  }
-}
 
 // So many of one value. The first touch of memory is what takes long.
 template <class Value>

@@ -11,131 +11,16 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "raster/note.h"
+#include "raster/piece_stack.h"
+#include "raster/precision.h"
 #include "raster/set_pieces.h"
-
-// What all targets share; this file is read once a target.
-#ifndef IFSM_RASTER_SET_PIECES_ONCE
-#define IFSM_RASTER_SET_PIECES_ONCE
-namespace ifsm::core {
-
-// Pieces that go through a map together, on every machine; a whole number of vectors.
-constexpr std::size_t pieces_per_block = 32;
-
-// Pieces' numbers a … f, and how far off their places may be, each in an array of its own.
-constexpr std::size_t piece_numbers = 7;
-template <class Real>
-struct PieceBlock {
-  alignas(64) std::array<std::array<Real, pieces_per_block>, piece_numbers> of;
-  std::size_t size;
-};
-
-template <class Real>
-class PieceStack {
- public:
-  std::size_t size() const { return size_; }
-  void push(const Piece& p, double rounding) {
-    make_room(1);
-    const std::array<double, piece_numbers> numbers{p.a, p.b, p.c, p.d, p.e, p.f, rounding};
-    for (std::size_t k = 0; k < piece_numbers; ++k) at(k)[0] = static_cast<Real>(numbers[k]);
-    grow(1);
-  }
-  void pop(PieceBlock<Real>& block) {
-    make_room(0);  // whole blocks are copied
-    block.size = std::min(size_, pieces_per_block);
-    size_ -= block.size;
-    for (std::size_t k = 0; k < piece_numbers; ++k) std::copy_n(at(k), pieces_per_block, block.of[k].begin());
-  }
-  // Where the next piece's number is to be written; from one number to the next.
-  Real* at(std::size_t number) { return numbers_.data() + number * room_ + size_; }
-  std::size_t stride() const { return room_; }
-  void grow(std::size_t pieces) { size_ += pieces; }
-  // For so many, and for what vectors write beyond.
-  void make_room(std::size_t pieces) {
-    const std::size_t needed = size_ + pieces + pieces_per_block;
-    if (needed <= room_) return;
-    const std::size_t room = 2 * needed;
-    std::vector<Real> numbers(piece_numbers * room);
-    for (std::size_t k = 0; k < piece_numbers; ++k)
-      std::copy_n(numbers_.data() + k * room_, size_, numbers.data() + k * room);
-    numbers_.swap(numbers);
-    room_ = room;
-  }
-
- private:
-  std::vector<Real> numbers_;
-  std::size_t size_ = 0, room_ = 0;
-};
-
-// What a piece tells of pixels of the tile, in one number: notes are sorted, so that their order is not that of
-// vectors. What is met comes first, then row by row.
-class Note {
- public:
-  struct Pixels {
-    std::size_t first_column, end_column, first_row, end_row;
-  };
-
-  Note(const Pixels& p, Meets state)
-      : bits_(p.end_column | p.end_row << 8 | p.first_column << 16 | p.first_row << 24 |
-              (state == Meets::yes ? std::uint64_t{0} : undecided)) {}
-
-  Pixels pixels() const { return {byte(2), byte(0), byte(3), byte(1)}; }
-  Meets state() const { return (bits_ & undecided) == 0 ? Meets::yes : Meets::undecided; }
-  friend bool operator<(Note a, Note b) { return a.bits_ < b.bits_; }
-
- private:
-  static_assert(KnownPixels::side < 256);
-  static constexpr std::uint64_t undecided = std::uint64_t{1} << 32;
-  std::size_t byte(int number) const { return bits_ >> 8 * number & 0xFF; }
-
-  std::uint64_t bits_;
-};
-
-// Pieces that reach farther from their middle, in their box, in pixels, are followed one by one, in doubles.
-constexpr double large_piece = KnownPixels::side / 4.;
-
-// What numbers of one type can follow.
-struct Precision {
-  // How far off the place of a piece may be, in pixels: at first, more with each map while pieces are large and then,
-  // and at most.
-  double at_first, of_a_large_map, of_a_map, at_most;
-  double farthest;  // how far the piece may reach
-};
-
-// What was computed before (the box, the maps' moves) may be off already by as much as the longest word adds.
-inline Precision doubles(const InPixels& attractor) {
-  const double of_a_map = attractor.rounding / InPixels::longest_word;
-  return {attractor.rounding, of_a_map, of_a_map, 2 * attractor.rounding, std::numeric_limits<double>::infinity()};
-}
-
-// Twice as many go into a vector, and pieces no larger than half a tile do with them: those that reach B = 32 pixels,
-// or 2 B where maps stretch before they shrink, whose middle is then less than 6 B from the tile's corner. In units of
-// 2^-24 pixels, a map's place is off by 6 B for the sum, 3 B for the products (if its move is no longer than half the
-// box, else as much more) and by what M carries on: 3 2^.5 B j s^j after j maps that shrink by s. Of the last, the mean
-// over the first maps is less than 21 B for s up to .94, and with s = .94 there are at most 128 maps. So 32 B are
-// enough for each map; two such are for what a box rounds.
-inline Precision floats(const InPixels& attractor, double tolerance) {
-  constexpr double farthest = 2 * large_piece, rounding = 0x1p-24 * 32 * large_piece;
-  const double of_a_map = rounding * std::max(1.0, attractor.farthest_move);
-  return {attractor.rounding + 2 * of_a_map, 0, of_a_map, tolerance / 4, farthest};
-}
-
-// Do they, if all words are about as long as those of the slowest map?
-inline bool floats_suffice(const Precision& floats, const InPixels& attractor, double smallest) {
-  if (attractor.slowest <= 0) return true;
-  constexpr double most_maps = 128;
-  const double maps = std::log(floats.farthest / smallest) / -std::log(attractor.slowest);
-  return maps >= 0 && maps <= most_maps && floats.at_first + maps * floats.of_a_map <= floats.at_most;
-}
-
-}  // namespace ifsm::core
-#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace ifsm::core {
@@ -336,9 +221,11 @@ class Search {
     const std::size_t before = std::exchange(followed_, followed_ + pieces);
     if (before / between != followed_ / between) watch_.poll();
     if (followed_ > most)
-      throw Error(Status::limit, "window",
-                  "More pieces of the attractor lie over one another in this window than are looked at; give larger "
-                  "pixels or a larger tolerance, or count points instead.");
+      throw Error(Status::limit, "tolerance",
+                  "The tolerance " + text_of(tolerance_) +
+                      " takes more pieces of the attractor than are looked at, for they lie over one another in this "
+                      "window; give a larger one, up to 1, larger pixels, or count points instead.")
+          .with(tolerance_);
   }
 
   // Are all of the block where they are said to be, and of a size that the numbers can follow?

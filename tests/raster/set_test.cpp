@@ -370,7 +370,8 @@ TEST(SetPixels, EndWhereMorePiecesLieOverOneAnotherThanCanBeFollowed) {
     ADD_FAILURE() << "was decided";
   } catch (const Error& error) {
     EXPECT_EQ(error.status(), Status::limit);
-    EXPECT_EQ(error.argument(), "window");
+    EXPECT_EQ(error.argument(), "tolerance");
+    EXPECT_EQ(error.value(), .1);
   }
 }
 

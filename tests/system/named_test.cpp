@@ -62,4 +62,25 @@ TEST(NamedSystems, AreListedWhenANameIsNone) {
   }
 }
 
+TEST(NamedSystems, SuggestTheNameThatWasMeant) {
+  const auto says = [](const std::string& name) -> std::string {
+    try {
+      static_cast<void>(named_system(name));
+    } catch (const Error& error) {
+      EXPECT_EQ(error.argument(), "name");
+      return error.what();
+    }
+    return "";
+  };
+  const auto holds = [&](const std::string& name, const std::string& text) {
+    return says(name).find(text) != std::string::npos;
+  };
+  EXPECT_TRUE(holds("frn", "Did you mean fern?"));
+  EXPECT_TRUE(holds("fren", "Did you mean fern?"));
+  EXPECT_TRUE(holds("menger-spong", "Did you mean menger_sponge?"));
+  EXPECT_TRUE(holds("vicsekk", "Did you mean vicsek?"));
+  for (const std::string& name : {std::string("qqqqqqqq"), std::string("x"), std::string(5000, 'f')})
+    EXPECT_FALSE(holds(name, "Did you mean")) << name.substr(0, 20);
+}
+
 }  // namespace
